@@ -15,6 +15,8 @@ from urllib.parse import urlencode
 
 QUESTIONS = {
     "stiffness per area": "concepts/joints",
+    "shear of an interface": "concepts/joints-shear",
+    "slip and damping per area": "concepts/joints-shear",
     "thermal contact": "tutorials/thermal",
     "hysteretic friction": "concepts/sliding-hysteresis",
     "friction against speed": "gallery/friction/rubber_friction",

@@ -146,14 +146,13 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.joints.bolt_pressure import bolt_pressure as bolt_pressure
     from roughcontact.joints.cycle_heat import cycle_heat as cycle_heat
     from roughcontact.joints.joint_leak import joint_leak as joint_leak
+    from roughcontact.joints.masing import ShearCycle as ShearCycle
     from roughcontact.joints.normal_law import NormalLaw as NormalLaw, normal_law as normal_law
     from roughcontact.joints.pressure_field import PressureField as PressureField
+    from roughcontact.joints.pressure_levels import ShearHistory as ShearHistory, ShearLevels as ShearLevels
+    from roughcontact.joints.reduced_laws import JenkinsElements as JenkinsElements
     from roughcontact.joints.shear_dataset import shear_dataset as shear_dataset
-    from roughcontact.joints.shear_law import (
-        ShearCycle as ShearCycle,
-        ShearLaw as ShearLaw,
-        shear_law as shear_law,
-    )
+    from roughcontact.joints.shear_law import ShearLaw as ShearLaw, shear_law as shear_law
     from roughcontact.joints.slip_cycle import SlipCycle as SlipCycle, shear_cycle as shear_cycle
     from roughcontact.joints.whole_joint import Joint as Joint, joint as joint
     from roughcontact.material import Solid as Solid

@@ -80,6 +80,11 @@ if TYPE_CHECKING:
         to_tilt as to_tilt,
     )
     from roughcontact.joints.joint_dataset import joint_dataset as joint_dataset, joint_record as joint_record
+    from roughcontact.joints.pressure_levels import shear_history as shear_history
+    from roughcontact.joints.reduced_laws import (
+        iwan_distribution as iwan_distribution,
+        jenkins_elements as jenkins_elements,
+    )
     from roughcontact.plot.answers import (
         plot_curve as plot_curve,
         plot_flow as plot_flow,
@@ -159,6 +164,8 @@ else:
         "fluid.flow_notes": "notes_on_flow notes_on_flow_curve notes_on_leak",
         "friction.slip_dataset": "slip_curve_dataset slip_curve_record tangential_dataset tangential_record",
         "joints.joint_dataset": "joint_dataset joint_record",
+        "joints.pressure_levels": "shear_history",
+        "joints.reduced_laws": "iwan_distribution jenkins_elements",
         "plot.answers": "plot_curve plot_flow plot_flux plot_loop plot_solution plot_state plot_surface",
         "plot.creep_plot": "creep_curve",
         "plot.detachment_plot": "detachment_force",

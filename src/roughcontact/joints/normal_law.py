@@ -1,16 +1,23 @@
-"""The law of an interface under normal load: closure and stiffness against nominal pressure, between computed loads."""
+"""The law of an interface under normal load: closure and stiffness against nominal pressure, between computed loads.
+
+The stiffness of an elastic contact rises with the pressure p, so that the mean gap g is a convex function of p. Between
+two loads, of distance h, g is the hyperbola that has their gaps and stiffnesses and is convex,
+
+    g = chord - h A B t (1 - t)/[A t + B (1 - t)],    0 <= t <= 1,
+
+where the slope of the chord exceeds that of g by A at t = 0, and is exceeded by B at t = 1 (Delbourgo and Gregory, SIAM
+J. Sci. Stat. Comput. 6, 967 (1985)). Its stiffness rises with the pressure, and the loss in shear is never negative.
+"""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
-from typing import TypeAlias
+from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.interpolate import PchipInterpolator
 
 from roughcontact.cached import cached_property
-from roughcontact.contact.curve import REMEDY, Curve
+from roughcontact.contact.curve import Curve
 from roughcontact.contact.loop import Loop
 from roughcontact.errors import InputError
 from roughcontact.guesses import hinted
@@ -18,14 +25,17 @@ from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.statistics.power_law import fit_power_law
 from roughcontact.validation import Array, numeric, positive, require
 
-__all__ = ["NormalLaw", "Pressed", "normal_law"]
-
-Pressed: TypeAlias = "Curve | Loop"
+__all__ = ["NormalLaw", "normal_law"]
 
 _ROUNDING = 1e-12  # of a pressure that leaves the range by rounding of a difference
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
+_NODES, _WEIGHTS = (np.polynomial.legendre.leggauss(20) + np.array([[1.0], [0.0]])) / 2  # from 0 to 1
+_STRAIGHT = 1e-15  # of the slope of a chord: the least turn
 _BISECTIONS = 60
+_MORE = "press the map by more loads, from small ones on, none of them in full contact"
+_PASSES = 6  # of the exponent of a fitted law: it is then exact to 1e-6 for loads a decade apart
 _SMOOTH_POINTS = 400
+_TINY = 1e-150  # of the lowest load: the stiffness without pressure is that at this one
+_SAME = 1e-9  # relative change below which two lengths, or two exponents, are equal
 
 
 @hinted
@@ -33,15 +43,16 @@ _SMOOTH_POINTS = 400
 class NormalLaw:
     """Mean gap and interfacial stiffness per area against nominal pressure, of surfaces that do not flow any more.
 
-    Between the loads, the mean gap is a monotone cubic in the logarithm of the pressure. Below the lowest load, the
-    pressure is a power of the closure since first touch that continues the slope, if the gap at first touch is known.
+    Between the loads, the mean gap is a convex function with the computed mean gaps and stiffnesses. Below the lowest
+    load, the closure since first touch is the power of the pressure that continues the law. If the gap at first touch
+    is not known, the law ends at the lowest load.
 
     Attributes
     ----------
-    pressure, gap : array, shape (n,)
-        Nominal pressures [Pa], increasing, and mean gaps [m], decreasing.
+    pressure, gap, stiffness : array, shape (n,)
+        Nominal pressures [Pa], increasing; mean gaps [m], decreasing; interfacial stiffness per area K/A0 [Pa/m].
     touch : float
-        Mean gap at first touch [m]; NaN if it is not known, as for a free map.
+        Mean gap at first touch [m]; NaN if it is not known: for a free map, or a map with missing cells.
     cells : array, shape (n,)
         Number of cells in contact; infinite for a fitted law.
     map_area : float
@@ -53,6 +64,11 @@ class NormalLaw:
     columns : dict of array
         Other numbers of the loads: contact fraction, and the measures of the curve.
 
+    Raises
+    ------
+    ValueError
+        If there are fewer than two loads, the pressures do not rise, or the mean gaps do not fall.
+
     Examples
     --------
     >>> import roughcontact as rc
@@ -63,16 +79,29 @@ class NormalLaw:
     NormalLaw(4 loads, 1e+06 to 8e+06 Pa)
     >>> f"{law.gap_at(3e6) * 1e9:.0f} nm, {law.stiffness_at(3e6) / 1e12:.0f} N/um/mm^2"
     '91 nm, 51 N/um/mm^2'
+    >>> f"{law.pressure_at(91e-9) / 1e6:.1f} MPa, {law.bow(1e6, 3e6) * 1e3:.1f} mJ/m^2"
+    '3.0 MPa, 10.4 mJ/m^2'
     """
 
     pressure: Array
     gap: Array
+    stiffness: Array
     touch: float
     cells: Array
     map_area: float
     modulus: float
     hardness: float
     columns: dict[str, Array]
+
+    def __post_init__(self) -> None:
+        gaps = self.gap if math.isnan(self.touch) else np.append(self.touch, self.gap)
+        rising = (np.diff(self.pressure) > 0).all() and self.pressure[:1] > 0
+        require(
+            len(self.pressure) > 1 and rising and (np.diff(gaps) < 0).all(),
+            "a law needs two or more loads, along which the pressure rises and the mean gap falls "
+            f"(loads: {len(self.pressure)})",
+            _MORE,
+        )
 
     @property
     def lowest(self) -> float:
@@ -103,14 +132,7 @@ class NormalLaw:
         ValueError
             If a pressure lies outside the law: it is never extrapolated.
         """
-        p = self._within(pressure)
-        above = np.maximum(p, self.pressure[0])
-        found = self._cubic(np.log(above))
-        start = self.pressure[0]
-        if self.lowest == 0:
-            below = self.touch - (self.touch - self.gap[0]) * (p / start) ** self._power
-            found = np.where(p < start, below, found)
-        return np.asarray(found)
+        return np.asarray(self._gap(self._within(pressure))[0])
 
     @numeric(pressure="Pa")
     def stiffness_at(self, pressure: float | Array) -> Array:
@@ -126,11 +148,7 @@ class NormalLaw:
         float or array
             K/A0 [Pa/m]; 0 at first touch, unless the law begins with a finite slope.
         """
-        p = self._within(pressure)
-        found = -np.maximum(p, self.pressure[0]) / self._cubic(np.log(np.maximum(p, self.pressure[0])), 1)
-        if self.lowest == 0:
-            found = np.where(p < self.pressure[0], found * (p / self.pressure[0]) ** (1 - self._power), found)
-        return np.asarray(found)
+        return np.asarray(-1 / self._gap(np.maximum(self._within(pressure), _TINY * self.pressure[0]))[1])
 
     @numeric(gap="m")
     def pressure_at(self, gap: float | Array) -> Array:
@@ -160,23 +178,20 @@ class NormalLaw:
             place="gap",
         )
         k = np.clip(np.searchsorted(-self.gap, -g) - 1, 0, len(self.gap) - 2)
-        x = np.log(self.pressure)
-        below, above = x[k], x[k + 1]
+        below, above = self.pressure[k], self.pressure[k + 1]
         for _ in range(_BISECTIONS):
             middle = (below + above) / 2
-            closed = self._cubic(middle) <= g
+            closed = self._gap(middle)[0] <= g
             below, above = np.where(closed, below, middle), np.where(closed, middle, above)
-        found = np.exp((below + above) / 2)
-        if self.lowest > 0:
-            return np.where(g > self.gap[0], np.nan, found)
+        if math.isnan(self.touch):
+            return np.where(g > self.gap[0], np.nan, above)
         closure = np.maximum(self.touch - g, 0.0) / (self.touch - self.gap[0])
-        return np.where(g > self.gap[0], self.pressure[0] * closure ** (1 / self._power), found)
+        return np.where(g > self.gap[0], self.pressure[0] * closure ** (1 / self._power), above)
 
     def bow(self, low: float, high: float) -> float:
         """Return by how much the chord of the gap lies above it, integrated from one pressure to another [Pa m].
 
-        It is the trapezoidal rule less the integral, ``int (p_m - p)/K dp`` with the middle p_m, a form without the
-        cancellation of the two.
+        It is the trapezoidal rule less the integral, without the cancellation of the two, and never negative.
 
         Parameters
         ----------
@@ -188,64 +203,91 @@ class NormalLaw:
         float
             Integral [Pa m].
         """
-        self._within(np.array([low, high]))
-        middle, start, m = (low + high) / 2, float(self.pressure[0]), self._power
-        total = 0.0
-        if low < start:
-            upper = min(high, start)
-            # The stiffness is that of the lowest load times (p/start)^(1 - m).
-            first, last = (
-                middle * x**m / m - start * x ** (m + 1) / (m + 1) for x in (low / start, upper / start)
-            )
-            total += (last - first) * start / float(self.stiffness_at(start))
+        low, high = self._within(np.array([low, high]))
         inside = self.pressure[(self.pressure > low) & (self.pressure < high)]
-        ends = np.log(np.concatenate([[max(low, start)], inside[inside > start], [max(high, start)]]))
-        half = np.diff(ends)[:, None] / 2
-        x = ends[:-1, None] + half * (1 + _NODES)
-        # 1/K dp = -(dg/dx) dx
-        return total - float((half * _WEIGHTS * (middle - np.exp(x)) * self._cubic(x, 1)).sum())
+        ends = np.concatenate([[low], inside, [high]])
+        lower, upper, middles = ends[:-1], ends[1:], (ends[1:] + ends[:-1]) / 2
+        # Between the chord and the polygon through the loads, then in each part between the polygon and the law
+        total = float((middles - (low + high) / 2) @ np.diff(self._gap(ends)[0]))
+        if low < self.pressure[0]:
+            p, m = ends[:2], self._power
+            closure = (self.touch - self.gap[0]) * (p / self.pressure[0]) ** m
+            total += float(np.diff((middles[0] - p * m / (m + 1)) * closure)[0])
+            lower, upper, middles = lower[1:], upper[1:], middles[1:]
+        k = np.searchsorted(self.pressure, middles) - 1
+        a, b, h, _ = self._pieces[:, k]
+        t = (np.array([lower, upper]) - self.pressure[k]) / h
+        first, last = b + (a - b) * t
+        inner = _WEIGHTS * _NODES * (1 - _NODES) / (first[:, None] + np.outer(last - first, _NODES))
+        parts = (upper - lower) ** 2 * (t[1] - t[0]) * (a * b) ** 2 / (first * last)
+        return total + float(parts @ inner.sum(axis=1))
 
     @cached_property
     def fitted(self) -> NormalLaw:
         """The law with the stiffness ``K/A0 = c p^a`` that fits the loads, without the steps of single cells.
 
-        It is fitted to the slopes between neighbouring loads by least squares of the logarithms.
+        It is fitted to the slopes between neighbouring loads by least squares of the logarithms, and needs three loads.
+        On the average of the loads, it has the mean gap of the curve.
         """
-        pressure, gap = self.pressure, self.gap
-        middle = np.sqrt(pressure[1:] * pressure[:-1])
-        fit = fit_power_law(middle, np.diff(pressure) / -np.diff(gap), 1.0, 1.0, "all loads")
-        a, c = fit.exponent, fit.prefactor
+        pressure = self.pressure
+        require(
+            len(pressure) > 2, "a power law of the stiffness needs three loads, and this law has two", _MORE
+        )
+        middle, slope = np.sqrt(pressure[1:] * pressure[:-1]), np.diff(pressure) / -np.diff(self.gap)
+        m = 0.0
+        for _ in range(_PASSES):
+            # From the slope between two loads to the stiffness in their middle, of a power law of this exponent
+            share = middle ** (1 - m) * np.diff(_rise(pressure, m)) / np.diff(pressure)
+            fit = fit_power_law(middle, slope * share, 1.0, 1.0, "all loads")
+            m = 1 - fit.exponent
         p = np.geomspace(pressure[0], pressure[-1], _SMOOTH_POINTS)
-        exponential = abs(1 - a) < 1e-9
-        closure = np.log(p / p[0]) / c if exponential else (p ** (1 - a) - p[0] ** (1 - a)) / (c * (1 - a))
-        there = float(np.interp(math.log(middle[len(middle) // 2]), np.log(pressure), gap))
-        level = there + float(np.interp(math.log(middle[len(middle) // 2]), np.log(p), closure))
-        touch = level + p[0] ** (1 - a) / (c * (1 - a)) if a < 1 and not exponential else math.nan
-        return NormalLaw(
-            p,
-            level - closure,
-            touch,
-            np.full(len(p), math.inf),
-            self.map_area,
-            self.modulus,
-            self.hardness,
-            {name: np.interp(np.log(p), np.log(pressure), each) for name, each in self.columns.items()},
+        closure = _rise(p, m) / fit.prefactor  # from first touch on, if m > 0
+        level = float(np.mean(self.gap + _rise(pressure, m) / fit.prefactor))
+        return replace(
+            self,
+            pressure=p,
+            gap=level - closure,
+            stiffness=fit.prefactor * p**fit.exponent,
+            touch=level if m > _SAME else math.nan,
+            cells=np.full(len(p), math.inf),
+            columns={name: np.interp(p, pressure, values) for name, values in self.columns.items()},
         )
 
     def __repr__(self) -> str:
         """Return the range of the law."""
         return f"NormalLaw({len(self.pressure)} loads, {self.pressure[0]:.4g} to {self.highest:.4g} Pa)"
 
+    def _gap(self, p: Array) -> tuple[Array, Array]:
+        """Return mean gaps [m] at pressures [Pa], and their slopes."""
+        k = np.clip(np.searchsorted(self.pressure, p, "right") - 1, 0, len(self.pressure) - 2)
+        a, b, h, chord = self._pieces[:, k]
+        t = np.maximum(p - self.pressure[k], 0.0) / h
+        w = b + (a - b) * t
+        gap = self.gap[k] + chord * h * t - h * a * b * t * (1 - t) / w
+        slope = chord - a * b * (b * (1 - t) ** 2 - a * t**2) / w**2
+        if math.isnan(self.touch):
+            return gap, slope
+        closure = (self.touch - self.gap[0]) * (p / self.pressure[0]) ** self._power
+        below, some = p < self.pressure[0], np.maximum(p, _TINY * self.pressure[0])
+        return np.where(below, self.touch - closure, gap), np.where(
+            below, -self._power * closure / some, slope
+        )
+
     @cached_property
-    def _cubic(self) -> PchipInterpolator:
-        return PchipInterpolator(np.log(self.pressure), self.gap)
+    def _pieces(self) -> Array:
+        """A, B, h and the slope of the chord between two loads, a column for each two."""
+        h = np.diff(self.pressure)
+        chords = np.diff(self.gap) / h
+        steepest = -math.inf if math.isnan(self.touch) else (self.gap[0] - self.touch) / self.pressure[0]
+        slopes = np.clip(-1 / self.stiffness, [steepest, *chords], [*chords, 0.0])
+        turns = np.maximum([chords - slopes[:-1], slopes[1:] - chords], _STRAIGHT * -chords)
+        return np.array([*turns, h, chords])
 
     @cached_property
     def _power(self) -> float:
-        """Exponent m of the closure ~ p^m below the lowest load, whose slope is that of the cubic."""
-        if math.isnan(self.touch):
-            return 1.0
-        return float(-self._cubic(math.log(self.pressure[0]), 1) / (self.touch - self.gap[0]))
+        """Exponent m of the closure ~ p^m below the lowest load, at most 1."""
+        a, _, _, chord = self._pieces[:, 0]
+        return float((a - chord) * self.pressure[0] / (self.touch - self.gap[0]))
 
     def _within(self, pressure: float | Array) -> Array:
         p = positive(pressure, "the nominal pressure [Pa]", zero=True)
@@ -259,14 +301,20 @@ class NormalLaw:
         return np.clip(p, self.lowest, self.highest)
 
 
-def normal_law(pressed: Pressed) -> NormalLaw:
+def _rise(pressure: Array, m: float) -> Array:
+    """Return the integral of ``p^(m - 1)`` over the pressure; from zero, if m > 0."""
+    return np.log(pressure) if abs(m) <= _SAME else pressure**m / m
+
+
+@numeric
+def normal_law(pressed: Curve | Loop) -> NormalLaw:
     """Return the law of an interface between its loads.
 
     Parameters
     ----------
     pressed : Curve or Loop
-        The curve of a map without hardness, or a loop of loads: its reloading branch, up to the largest load, is the
-        law of surfaces that have flowed.
+        The curve of a map without hardness, or after plastic flow the loop of `loading_loop`: its reloading branch, up
+        to the largest load, is elastic.
 
     Returns
     -------
@@ -276,7 +324,7 @@ def normal_law(pressed: Pressed) -> NormalLaw:
     Raises
     ------
     ValueError
-        If the curve is not that of a map, is the first loading of a surface that flows, or has fewer than two loads.
+        If the curve is not that of a map, is a branch of a surface that flows, or has fewer than two loads.
 
     Examples
     --------
@@ -292,30 +340,25 @@ def normal_law(pressed: Pressed) -> NormalLaw:
             f"the law of an interface per area needs the curve of a map, not of a {curve.geometry.value}",
             "press a map of heights",
         )
-    if math.isfinite(curve.hardness):
+    if curve.flow is not None and not isinstance(pressed, Loop):
         raise InputError(
-            "this is the first loading of a surface that flows: it does not return on the same curve when a part of "
-            "the load is removed",
+            "this curve is one branch of a surface that flows: first loading is not elastic, and the mean gap at first "
+            "touch after flow is not in the curve",
             "pass the loop of rc.loading_loop, whose reloading branch is elastic",
-            "curve",
+            "pressed",
         )
     solved = np.array([status.converged for status in curve.status]) & (curve.force > 0)
-    solved &= np.isfinite(curve.interfacial_stiffness)
-    kept = np.flatnonzero(solved)[np.argsort(curve.force[solved], kind="stable")]
-    pressure, gap = curve.nominal_pressure[kept], curve.mean_gap[kept]
-    if len(kept) < 2 or not ((np.diff(gap) < 0).all() and (np.diff(pressure) > 0).all()):
-        raise InputError(
-            f"a law needs two loads between which the mean gap falls, and the curve has {len(kept)} loads",
-            REMEDY,
-        )
-    touch = math.nan
+    kept = np.flatnonzero(solved & np.isfinite(curve.interfacial_stiffness))
+    kept = kept[np.argsort(curve.force[kept])]
+    touch, level = math.nan, curve.mean_gap + curve.depth
     if isinstance(pressed, Loop):
         touch = pressed.residual_gap
-    elif all(curve.periodic):  # depth and mean gap add up to the mean separation
-        touch = float(curve.mean_gap[0] + curve.depth[0])
+    elif all(curve.periodic) and np.ptp(level) < _SAME * level[0]:  # without missing cells
+        touch = float(level[0])
     return NormalLaw(
-        pressure,
-        gap,
+        curve.nominal_pressure[kept],
+        curve.mean_gap[kept],
+        curve.interfacial_stiffness_per_area[kept],
         touch,
         curve.contact_area[kept] / math.prod(curve.spacing),
         curve.nominal_area,

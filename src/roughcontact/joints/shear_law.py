@@ -6,7 +6,7 @@ from a smaller load. With the mean gap g, the interfacial stiffness per area K a
     s(tau) = mu C [g(p - tau/mu) - g(p)],    dtau/ds = K(p - tau/mu)/C,
 
 and the loss of a cycle between +tau and -tau is ``8 mu^2 C`` times the integral of the chord of g less g between
-p - tau/mu and p (Masing's rule). Ciavarella, Int. J. Solids Struct. 35, 2349 (1998); Jaeger, Arch. Appl. Mech. 68, 27
+p - tau/mu and p (Masing's rule). Ciavarella, Int. J. Solids Struct. 35, 2349 (1998); Jäger, J. Tribol. 120, 677
 (1998). Exact for Poisson's ratio 0; otherwise slip is assumed to be along the traction, and C is the ratio of a disc.
 """
 
@@ -18,51 +18,26 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from roughcontact import methods
+from roughcontact.contact.curve import Curve
+from roughcontact.contact.loop import Loop
 from roughcontact.errors import InputError
+from roughcontact.friction.slip_solution import UNLIKE
 from roughcontact.guesses import hinted
 from roughcontact.halfspace.shear.shear_operator import dundurs_parameter
-from roughcontact.joints.normal_law import NormalLaw, Pressed, normal_law
+from roughcontact.joints.masing import ShearCycle, masing_cycle
+from roughcontact.joints.normal_law import NormalLaw, normal_law
 from roughcontact.labels.note import Note, Rank, in_order
 from roughcontact.material import Solid
 from roughcontact.materials import Elastic, reduced_modulus, solids_of
 from roughcontact.theory.joints.mindlin import pair_ratio
 from roughcontact.validation import Array, exactly_one, numeric, positive, positive_scalar, require
 
-__all__ = ["ShearCycle", "ShearLaw", "shear_law"]
+__all__ = ["ShearLaw", "shear_law"]
 
-UNLIKE = 1e-3  # of Dundurs's parameter: below it, the bodies count as alike
-_POINTS = 101  # of a branch of a cycle
-
-
-@hinted
-@dataclass(frozen=True, slots=True, eq=False)
-class ShearCycle:
-    """A steady cycle of tangential loading at constant nominal pressure, per nominal area.
-
-    Attributes
-    ----------
-    displacement, traction : array, shape (n,)
-        The closed loop [m], [Pa]: from the largest displacement to its opposite and back.
-    loss : float
-        Energy dissipated per cycle [J/m^2].
-    damping : float
-        Loss over 4 pi times the energy tau s/2 at the reversal: the equivalent damping ratio of only the interface.
-        The modal damping of a structure is the loss over 4 pi times the energy of the whole structure.
-
-    Examples
-    --------
-    >>> import roughcontact as rc
-    >>> steel = rc.Solid(210e9, 0.3)
-    >>> curve = rc.loading_curve(rc.examples.surface("ground"), (steel, steel), pressures=[1e6, 1e7, 3e7, 1e8])
-    >>> cycle = rc.shear_law(curve, (steel, steel), friction=0.2).cycle(5e7, traction=5e6)
-    >>> f"{cycle.loss:.2g} J/m^2, damping {cycle.damping:.3f}"
-    '0.1 J/m^2, damping 0.067'
-    """
-
-    displacement: Array
-    traction: Array
-    loss: float
-    damping: float
+ROUNDING = 1e-12  # of a traction that exceeds mu p by rounding
+BELOW = "p - tau/mu lies below the lowest load of the curve, and the gap at first touch is not known"
+TOUCH = "give a smaller amplitude, or use a curve with smaller loads, of a periodic map without missing cells"
 
 
 @hinted
@@ -91,8 +66,13 @@ class ShearLaw:
     >>> law = rc.shear_law(curve, (steel, steel), friction=0.2)
     >>> law
     ShearLaw(friction 0.2, E*/G* 1.214, 4 loads, 1e+06 to 1e+08 Pa)
-    >>> f"K_t/A0 = {law.stiffness(5e7) / 1e12:.0f} N/um/mm^2"
-    'K_t/A0 = 141 N/um/mm^2'
+    >>> s = float(law.displacement(5e6, 5e7))  # half of mu p
+    >>> f"K_t/A0 = {law.stiffness(5e7) / 1e12:.0f} N/um/mm^2; {law.traction(s, 5e7):.2g} Pa at {s * 1e9:.0f} nm"
+    'K_t/A0 = 147 N/um/mm^2; 5e+06 Pa at 45 nm'
+    >>> law.loss(5e7, displacement=s) == law.cycle(5e7, displacement=s).loss, round(law.smallest_share(5e7), 3)
+    (True, 0.058)
+    >>> f"{law.fitted.gross_slip(5e7) * 1e9:.0f} nm by the fitted stiffness"
+    '308 nm by the fitted stiffness'
     """
 
     normal: NormalLaw
@@ -104,7 +84,7 @@ class ShearLaw:
     @property
     def exact(self) -> bool:
         """Whether the law is exact: Poisson's ratio is 0, and the bodies are alike."""
-        return all(body.poisson_ratio == 0 for body in self.bodies) and not self._unlike
+        return all(body.poisson_ratio == 0 for body in self.bodies) and not self._beta
 
     @property
     def fitted(self) -> ShearLaw:
@@ -162,7 +142,7 @@ class ShearLaw:
         Raises
         ------
         ValueError
-            If the traction exceeds mu p, or p - tau/mu lies below the normal law.
+            If the traction exceeds mu p, or p - tau/mu lies below the lowest pressure of the normal law.
         """
         held = self._held(traction, pressure)
         return np.asarray(
@@ -187,7 +167,8 @@ class ShearLaw:
         """
         s = positive(displacement, "the displacement [m]", zero=True)
         gap = self.normal.gap_at(pressure) + s / (self.friction * self.ratio)
-        return np.asarray(self.friction * (np.asarray(pressure) - self.normal.pressure_at(gap)))
+        # At a small displacement, rounding may leave a pressure above the given one.
+        return np.asarray(self.friction * np.maximum(pressure - self.normal.pressure_at(gap), 0.0))
 
     @numeric(pressure="Pa", traction="Pa", displacement="m")
     def loss(
@@ -224,7 +205,7 @@ class ShearLaw:
             place="traction" if displacement is None else "displacement",
         )
         slip = 8 * self.friction**2 * self.ratio * self.normal.bow(held, float(pressure))
-        return slip + 4 * self.friction * float(pressure) * slid
+        return slip + 4 * tau * slid
 
     @numeric(pressure="Pa", traction="Pa", displacement="m")
     def cycle(
@@ -246,16 +227,9 @@ class ShearLaw:
         """
         loss = self.loss(pressure, traction=traction, displacement=displacement)
         tau, slid = self._amplitude(pressure, traction, displacement)
-        # Branches are the backbone at twice the scale; steps are finer where it is steep, at the reversal.
-        fall = tau * np.linspace(0, 1, _POINTS) ** 2
-        backward = float(self.displacement(tau, pressure)) + slid - 2 * self.displacement(fall, pressure)
-        branch = tau - 2 * fall
-        if slid:
-            backward, branch = np.append(backward, backward[-1] - 2 * slid), np.append(branch, -tau)
-        s, q = np.concatenate([backward, -backward[1:]]), np.concatenate([branch, -branch[1:]])
-        energy = tau * float(s[0]) / 2
-        return ShearCycle(s, q, loss, loss / (4 * math.pi * energy) if energy else 0.0)
+        return masing_cycle(lambda rising: self.displacement(rising, pressure), tau, slid, loss)
 
+    @numeric(pressure="Pa")
     def smallest_share(self, pressure: float) -> float:
         """Return the smallest share of mu p at which a loss is given: one over the root of the cells in contact.
 
@@ -271,19 +245,29 @@ class ShearLaw:
         """
         return float(1 / math.sqrt(np.interp(pressure, self.normal.pressure, self.normal.cells)))
 
+    elements = methods.jenkins_elements
+    history = methods.shear_history
+    iwan = methods.iwan_distribution
+
     @property
     def notes(self) -> tuple[str, ...]:
         """Limits of this law, in sentences, the most important first."""
         return in_order(self._notes())
 
     def _notes(self) -> Iterator[Note]:
-        if self._unlike:
+        if self._beta:
             yield Note(
                 Rank.DOUBTFUL,
                 f"The bodies are unlike (Dundurs's parameter {self._beta:.2g}): the coupling of traction and pressure "
                 "is neglected.",
             )
-        if not self.exact:
+        if math.isnan(self.normal.touch):
+            yield Note(
+                Rank.LIMITED,
+                "The gap at first touch is not known, as for free maps and maps with missing cells: the law ends where "
+                f"p - tau/mu is {self.normal.lowest:.3g} Pa, and the displacement at gross slip is NaN.",
+            )
+        if any(body.poisson_ratio for body in self.bodies):
             yield Note(
                 Rank.LIMITED,
                 "Shear from the normal curve is exact for Poisson's ratio 0. Here slip across the traction is "
@@ -313,24 +297,23 @@ class ShearLaw:
 
     @property
     def _beta(self) -> float:
-        return dundurs_parameter(*self.bodies)
-
-    @property
-    def _unlike(self) -> bool:
-        return abs(self._beta) > UNLIKE
+        beta = dundurs_parameter(*self.bodies)
+        return beta if abs(beta) > UNLIKE else 0.0
 
     def _held(self, traction: float | Array, pressure: float | Array) -> Array:
         """Return the pressure p - tau/mu [Pa] whose contact sticks."""
         p = np.asarray(pressure, dtype=np.float64)
         tau = positive(traction, "the traction [Pa]", zero=True)
         require(
-            tau <= self.friction * p * (1 + 1e-12),
+            tau <= self.friction * p * (1 + ROUNDING),
             f"the traction exceeds mu p with mu = {self.friction:g}: the surfaces slide",
             "give a smaller traction, or a displacement",
             value=tau,
             place="traction",
         )
-        return np.asarray(np.maximum(p - tau / self.friction, 0.0))
+        held = np.maximum(p - tau / self.friction, 0.0)
+        require(held >= self.normal.lowest * (1 - ROUNDING), BELOW, TOUCH, value=held, place="traction")
+        return np.asarray(held)
 
     def _amplitude(
         self, pressure: float, traction: float | None, displacement: float | None
@@ -340,20 +323,16 @@ class ShearLaw:
         if name == "traction":
             return float(positive(value, "the traction [Pa]", zero=True)), 0.0
         s = float(positive(value, "the displacement [m]", zero=True))
-        tau = float(self.traction(s, pressure))
-        require(
-            not math.isnan(tau),
-            "the displacement is larger than that of the lowest load of the curve, and first touch of a free map is "
-            "not known",
-            "give a smaller amplitude, or press the map as periodic",
-            place="displacement",
-        )
-        return tau, max(s - float(np.nan_to_num(self.gross_slip(pressure), nan=math.inf)), 0.0)
+        tau = float(self.traction(s, pressure)) if s else 0.0
+        require(not math.isnan(tau), BELOW, TOUCH, place="displacement")
+        # Shortly before gross slip, it corrects for a traction that is mu p to rounding.
+        slid = s - float(self.displacement(tau, pressure))
+        return tau, slid if abs(slid) > ROUNDING * s else 0.0
 
 
 @numeric(shear_strength="Pa")
 def shear_law(
-    pressed: Pressed,
+    pressed: Curve | Loop,
     bodies: Elastic | tuple[Elastic, Elastic],
     *,
     friction: float,
@@ -395,7 +374,7 @@ def shear_law(
     >>> curve = rc.loading_curve(surface, bodies, pressures=[1e6, 2e6, 4e6, 8e6])
     >>> law = rc.shear_law(curve, bodies, friction=0.3, exact=True)
     >>> f"slides at {law.gross_slip(4e6) * 1e9:.0f} nm; {law.loss(4e6, traction=0.6e6) * 1e3:.1f} mJ/m^2 a cycle"
-    'slides at 106 nm; 3.5 mJ/m^2 a cycle'
+    'slides at 106 nm; 3.3 mJ/m^2 a cycle'
     """
     normal = normal_law(pressed)
     solids = solids_of(*bodies) if isinstance(bodies, tuple) else solids_of(bodies)
