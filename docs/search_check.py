@@ -48,6 +48,7 @@ QUESTIONS = {
     "creep of a rough rubber contact": "gallery/rubber/rough_rubber_block",
     "rubber friction": "concepts/sliding-hysteresis",
     "leak against time": "tutorials/rubber-seal",
+    "damping of a bolted joint from measured faces": "tutorials/bolted-joint",
     "mated": "reference/glossary",
     "K from ultrasound": "how-to/ultrasound",
     "mpi": "how-to/scale",

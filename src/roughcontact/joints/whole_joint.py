@@ -320,8 +320,8 @@ class Joint:
         elif (steep := self.steep_share) > 0:
             yield Note(
                 Rank.DOUBTFUL,
-                f"On {100 * steep:.2g} % of the loaded area, the pressure changes by its own value over three of the longest "
-                f"waves ({written(self.longest_wave, 'm')}) or less: the law does not hold there.",
+                f"On {100 * steep:.2g} % of the loaded area, the pressure changes by its own value over three of the "
+                f"longest waves ({written(self.longest_wave, 'm')}) or less: the law does not hold there.",
             )
 
     to_dataset = methods.joint_dataset
