@@ -3,6 +3,7 @@
     python reproduction/benchmarks/law.py                     # writes results, tables and pictures of docs/law*.md
     python reproduction/benchmarks/law.py --collect DIR       # takes over the studies DIR/NAME before
     python reproduction/benchmarks/law.py --cost              # seconds of a processor a curve on every grid
+    python reproduction/benchmarks/law_run.py NAME --out DIR  # runs studies in batches, and collects each batch
     python reproduction/benchmarks/law_check.py               # one member of each, by another solver
 
 The studies are those of examples/law: ``roughcontact study run examples/law/NAME.toml --out DIR/NAME``. They can be

@@ -50,6 +50,8 @@ MEMBERS: Mapping[str, Mapping[str, Any]] = MappingProxyType(
         },
         "e6-spheres": {},
         "e7-sizes": {"hurst": 0.4},
+        "e8-border": {"hurst": 0.7, "crest": 0.0},
+        "e8-cut": {"hurst": 0.7, "crest": 0.5},
     }
 )
 

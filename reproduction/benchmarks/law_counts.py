@@ -121,6 +121,16 @@ def _sizes(found: xarray.Dataset, _: Path) -> Found:
     return np.exp(log_k.isel(points=-1) - log_k.isel(points=0)), samples, ".1%"
 
 
+def _crest(found: xarray.Dataset, folder: Path) -> Found:
+    return _alpha(found.isel(row=1), folder)
+
+
+def _border(found: xarray.Dataset, _: Path) -> Found:
+    force, stiffness, samples = curves(found)
+    k = resampled(stiffness).isel(load=load_at(force, DECADES[1][0]))
+    return k.isel(crest=0) / k.isel(crest=-1), samples, ".1%"
+
+
 DECIDING = {
     "e1-lines": ("alpha of one decade", _lines),
     "e1-surfaces": ("alpha", _alpha),
@@ -136,6 +146,8 @@ DECIDING = {
     "e6-spheres": ("k", _spheres),
     "e6-spheres-1024": ("k on 1024² over 512²", _finer_spheres),
     "e7-sizes": (f"k of size 4 over size 1 at {HIGHEST:g}", _sizes),
+    "e8-border": (f"k of a crest at 0 over L/16, at {DECADES[1][0]:g}", _border),
+    "e8-cut": ("alpha, crest in the middle", _crest),
 }
 
 

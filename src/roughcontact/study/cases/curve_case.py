@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
@@ -12,6 +12,7 @@ from pydantic import Field
 
 from roughcontact.contact.curve import CURVE_POINTS, collect
 from roughcontact.contact.loading import loading_path
+from roughcontact.contact.measures import StateMeasure
 from roughcontact.contact.solution import Solution
 from roughcontact.contact.stiffness import contact_stiffness
 from roughcontact.grid import Grid
@@ -71,8 +72,10 @@ def moments_of(roughness: Surface) -> Moments:
     return surface_moments(roughness, derivative="spectral")
 
 
-def curve_of(roughness: Surface, moments: Moments, parameters: CurveParameters) -> Record:
-    """Return the record of a roughness on the body of the parameters; see `run`."""
+def curve_of(
+    roughness: Surface, moments: Moments, parameters: CurveParameters, measures: Sequence[StateMeasure] = ()
+) -> Record:
+    """Return the record of a roughness on the body of the parameters, with the columns of the measures; see `run`."""
     forces = parameters.forces
     path = loading_path(
         parameters.on_body(roughness),
@@ -81,11 +84,12 @@ def curve_of(roughness: Surface, moments: Moments, parameters: CurveParameters) 
         tolerance=parameters.tolerance,
         hardness=parameters.hardness_on(moments.rms_slope),
     )
-    curve = collect(_with_limit(path, parameters))
+    curve = collect(_with_limit(path, parameters), measures)
     whole = curve.to_dataset()
-    names = [*_ARRAYS, *_SCALES, *(("hardness",) if math.isfinite(curve.hardness) else ())]
+    names = [*_ARRAYS, *_SCALES, *curve.measured, *(("hardness",) if math.isfinite(curve.hardness) else ())]
     record = whole[names].drop_vars("axis", errors="ignore")
-    record.attrs.pop("state_notes", None)  # of one member
+    for name in ("state_notes", "measured"):  # of one member; a list
+        record.attrs.pop(name, None)
     record["dimensionless_force"] = "load", forces, whole["dimensionless_force"].attrs
     record["rms"] = described((), roughness.rms, "root mean square height of the roughness", "m")
     record["rms_slope"] = described((), moments.rms_slope, "root mean square slope of the roughness")
