@@ -18,9 +18,11 @@ PARAMETERS = {
 # Commands that press take every step of a preparation, and the help shows the everyday options first. Each command has
 # --quiet, --verbose and --help-all.
 OPTIONS = {
-    "curve": 67,  # two of the noise of the heights, two of the flow, two of ultrasound, four of gas, radiation and film
-    "leak": 56,
-    "creep": 44,
+    "curve": 68,  # two of the noise, two of the flow, two of ultrasound, four of gas, radiation and film, one of friction
+    "leak": 55,
+    "joint": 55,
+    "shear": 46,
+    "creep": 38,
     "press": 51,
     "adhesion press": 46,
     "adhesion curve": 46,
@@ -33,7 +35,7 @@ OPTIONS = {
     "surface spectrum": 19,
     "surface make": 17,
 }
-FILES = {"files": 59}  # one a format, and what a computation keeps: their names are the table of contents
+FILES = {"files": 60}  # one a format, and what a computation keeps: their names are the table of contents
 # Changes of file and calls, with machine code; a tenth more for other processors, where other kernels are called.
 WAYS = {"a press": (271, 603), "a curve of six loads": (5642, 9675)}
 
