@@ -365,6 +365,7 @@ ANSWERS = {
     "Comparison",
     "ContactFlux",
     "SealingLoad",
+    "ShearLaw",
     "Transmissivity",
     "Joint",
 }

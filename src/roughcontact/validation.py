@@ -24,7 +24,6 @@ __all__ = [
     "fitting",
     "lengths_method",
     "moderate",
-    "named_method",
     "number",
     "numeric",
     "numeric_method",
@@ -54,8 +53,6 @@ OF_MATERIALS = {
     "modulus": "give a number, or of materials rc.reduced_modulus('steel', 'aluminium')",
     "hardness": "give a number, or of a material rc.handbook('steel').hardness",
 }
-# Units of parameters of methods of a law, by their names.
-NAMED = {"pressure": "Pa", "pressures": "Pa", "tractions": "Pa", "displacement": "m"}
 # Of sizes in between, whatever their unit, products of six are numbers of full precision.
 SMALLEST, LARGEST = 1e-50, 1e50
 
@@ -71,7 +68,6 @@ BODIES = {
     "Curve": "a Curve, as rc.loading_curve returns it",
     "MeasuredCurve": "a curve, as rc.loading_curve or rc.viscoelastic_curve returns it",
     "Loop": "a Loop, as rc.loading_loop returns it",
-    "Curve | Loop": "a Curve, as rc.loading_curve returns it, or a Loop, as rc.loading_loop returns it",
     "Flow": "a Flow, as solution.flow holds it",
     "Adhesion": "an Adhesion, such as rc.Adhesion(work=0.05, range=2e-9)",
     "Body": "a Surface, such as rc.Surface(heights, spacing), or a RadialProfile",
@@ -296,12 +292,6 @@ def lengths_method(function: F) -> F:
     kinds = {name: str(each.annotation) for name, each in inspect.signature(function).parameters.items()}
     lengths = [name for name, kind in kinds.items() if kind.removesuffix(OPTIONAL) == "float"]
     return numeric(**dict.fromkeys(lengths, "m"))(function)  # type: ignore[return-value]
-
-
-def named_method(function: F) -> F:
-    """Check the arguments of a function that is a method, see `numeric_method`; their names stand for the units."""
-    names = NAMED.keys() & inspect.signature(function).parameters.keys()
-    return numeric(**{name: NAMED[name] for name in names})(function)  # type: ignore[return-value]
 
 
 def _checked(function: Callable[P, R], units: Mapping[str, Any]) -> Callable[P, R]:

@@ -158,6 +158,15 @@ def test_surfaces_that_slide():
     assert keys(curve) == SLIDING | {"roughcontact", "Pohrt2013"}
 
 
+def test_laws_of_shear():
+    curve = rc.loading_curve(WAVE, SOLID, pressures=[1e4, 2e4, 4e4])
+    law = rc.shear_law(curve, SOLID, friction=0.3)
+    theory = {"Ciavarella1998", "Jaeger1998"}
+    assert keys(law) == {"roughcontact", "Mindlin1949", "Delbourgo1985"} | theory
+    assert keys(law.fitted.elements(3e4)) == {"roughcontact", "Iwan1966"}
+    assert keys(law.history([3e4], [1e3])) == {"roughcontact"} | theory
+
+
 def test_bodies_in_time():
     rubber = rc.viscoelastic.standard_solid(1e6, 1e7, 1.0)
     in_time = METHOD | {"Lee1960"}
@@ -255,6 +264,9 @@ def test_every_entry_is_cited_by_something():
             "Yovanovich2005",
             "Kendall1971",
             "Rotscher1927",
+            "Jaeger1998",
+            "Delbourgo1985",
+            "Iwan1966",
         ),
     }
     assert {each.key for each in references()} == cited | elsewhere

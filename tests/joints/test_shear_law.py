@@ -340,7 +340,10 @@ def test_what_is_no_law():
             lambda: rc.shear_law(CURVE, rubber, friction=0.3),
             "reduced modulus of 1.33333e.07 Pa, but were pressed with",
         ),
-        (lambda: rc.shear_law(GROUND, steel, friction=0.3), "must be a Curve, as rc.loading_curve"),
+        (
+            lambda: rc.shear_law(GROUND, steel, friction=0.3),
+            "must be a Curve, as .* or a Loop, not a Surface",
+        ),
         (lambda: rc.shear_law(CURVE, (steel, steel), friction=0.3, shear_strength=0), "shear strength"),
         (lambda: LAW.loss(1e8), "give exactly one of traction and displacement"),
         (lambda: LAW.loss(1e8, traction=1e6, displacement=1e-9), "give exactly one"),

@@ -19,11 +19,11 @@ import numpy as np
 from roughcontact.cached import cached_property
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.loop import Loop
-from roughcontact.errors import InputError
+from roughcontact.errors import InputError, about
 from roughcontact.guesses import hinted
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.statistics.power_law import fit_power_law
-from roughcontact.validation import Array, numeric, positive, require
+from roughcontact.validation import Array, numeric, positive, require, shown
 
 __all__ = ["NormalLaw", "normal_law"]
 
@@ -306,7 +306,6 @@ def _rise(pressure: Array, m: float) -> Array:
     return np.log(pressure) if abs(m) <= _SAME else pressure**m / m
 
 
-@numeric
 def normal_law(pressed: Curve | Loop) -> NormalLaw:
     """Return the law of an interface between its loads.
 
@@ -334,6 +333,10 @@ def normal_law(pressed: Curve | Loop) -> NormalLaw:
     >>> rc.normal_law(loop)
     NormalLaw(3 loads, 1e+07 to 1e+08 Pa)
     """
+    if not isinstance(pressed, Curve | Loop):
+        raise about(
+            "pressed", f"must be a Curve, as rc.loading_curve returns it, or a Loop, not {shown(pressed)}"
+        )
     curve = pressed.reloading if isinstance(pressed, Loop) else pressed
     if curve.geometry is not Geometry.SURFACE:
         raise InputError(

@@ -17,7 +17,8 @@ import numpy as np
 from roughcontact.errors import InputError
 from roughcontact.guesses import hinted
 from roughcontact.joints.shear_law import BELOW, ROUNDING, TOUCH, ShearLaw
-from roughcontact.validation import Array, finite, named_method, positive, require
+from roughcontact.units import in_si
+from roughcontact.validation import Array, finite, positive, require
 
 __all__ = ["ShearHistory", "ShearLevels", "shear_history"]
 
@@ -109,7 +110,6 @@ class ShearHistory:
         )
 
 
-@named_method
 def shear_history(
     law: ShearLaw, pressures: Sequence[float] | Array, tractions: Sequence[float] | Array
 ) -> ShearHistory:
@@ -146,7 +146,8 @@ def shear_history(
     >>> [f"{s * 1e9:.0f} nm" for s in history.displacement], [f"{part:.0%}" for part in history.slipping]
     (['0 nm', '45 nm', '45 nm', '61 nm'], ['0%', '50%', '0%', '62%'])
     """
-    p, tau = positive(pressures, "pressures"), finite(tractions, "tractions")
+    p = positive(in_si(pressures, "Pa", "pressures"), "pressures")
+    tau = finite(in_si(tractions, "Pa", "tractions"), "tractions")
     if p.ndim != 1 or p.shape != tau.shape or not len(p):
         raise InputError(
             f"a history needs a traction for each pressure, not {p.shape} pressures and {tau.shape} tractions",

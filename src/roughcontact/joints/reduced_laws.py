@@ -14,7 +14,8 @@ import numpy as np
 
 from roughcontact.guesses import hinted
 from roughcontact.joints.shear_law import BELOW, TOUCH, ShearLaw
-from roughcontact.validation import Array, named_method, numeric, positive, require, whole
+from roughcontact.units import in_si
+from roughcontact.validation import Array, numeric, positive, positive_scalar, require, whole
 
 __all__ = ["JenkinsElements", "iwan_distribution", "jenkins_elements"]
 
@@ -110,7 +111,6 @@ class JenkinsElements:
         )
 
 
-@named_method
 def jenkins_elements(
     law: ShearLaw, pressure: float, *, count: int = 16, first: float = 0.01
 ) -> JenkinsElements:
@@ -148,28 +148,16 @@ def jenkins_elements(
     >>> [f"{law.elements(5e7, count=count).misfit['loss']:.1%}" for count in (8, 16, 32)]
     ['15.8%', '3.2%', '1.2%']
     """
+    pressure = positive_scalar(in_si(pressure, "Pa", "pressure"), "pressure")
     require(whole(count, "count") > 1, "the backbone needs at least two elements", value=count, place="count")
-    require(
-        0 < first < 1,
-        "`first` is a fraction of the last slip",
-        "give a number such as 0.01",
-        value=first,
-        place="first",
-    )
-    low = law.normal.lowest
-    require(
-        pressure > low,
-        f"elements need a pressure above {low:g} Pa",
-        "give a larger pressure",
-        value=pressure,
-        place="pressure",
-    )
+    low, part = law.normal.lowest, "`first` is a fraction of the last slip"
+    require(0 < first < 1, part, "give a number such as 0.01", value=first, place="first")
+    least = f"elements need a pressure above {low:g} Pa"
+    require(pressure > low, least, "give a larger pressure", value=pressure, place="pressure")
     last = law.displacement(law.friction * (pressure - low), pressure)
     slip = last * np.geomspace(first, 1.0, count)
     slopes = np.append(np.diff(law.traction(slip, pressure), prepend=0.0) / np.diff(slip, prepend=0.0), 0.0)
-    stiffness = np.maximum(
-        -np.diff(slopes), 0.0
-    )  # the stiffness of the law rises with the pressure; here, rounding
+    stiffness = np.maximum(-np.diff(slopes), 0.0)  # below 0 by rounding only
     elements = JenkinsElements(stiffness, slip, pressure, {})
     smooth = replace(law, normal=replace(law.normal, cells=np.full_like(law.normal.cells, np.inf)))
     s = np.geomspace(min(_RESOLVED * slip[0], last), last, _AMPLITUDES)
@@ -178,7 +166,6 @@ def jenkins_elements(
     return replace(elements, misfit={name: float(abs(a / b - 1).max()) for name, (a, b) in pairs.items()})
 
 
-@named_method
 def iwan_distribution(law: ShearLaw, pressure: float, displacement: float | Array) -> Array:
     """Return Iwan's distribution phi of a fitted law: stiffness per area of the elements that slide at a displacement.
 
@@ -215,7 +202,7 @@ def iwan_distribution(law: ShearLaw, pressure: float, displacement: float | Arra
     >>> round(float(share), 3)
     1.0
     """
-    normal = law.normal
+    pressure, normal = positive_scalar(in_si(pressure, "Pa", "pressure"), "pressure"), law.normal
     require(np.isinf(normal.cells), "Iwan's distribution needs a smooth stiffness", "use the law `fitted`")
     traction = law.traction(displacement, pressure)
     require(~np.isnan(traction), BELOW, TOUCH, place="displacement")

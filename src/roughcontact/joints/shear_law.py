@@ -35,7 +35,7 @@ from roughcontact.validation import Array, exactly_one, numeric, positive, posit
 
 __all__ = ["ShearLaw", "shear_law"]
 
-ROUNDING = 1e-12  # of a traction that exceeds mu p by rounding
+ROUNDING = 1e-12  # of a traction
 BELOW = "p - tau/mu lies below the lowest load of the curve, and the gap at first touch is not known"
 TOUCH = "give a smaller amplitude, or use a curve with smaller loads, of a periodic map without missing cells"
 
@@ -376,8 +376,7 @@ def shear_law(
     >>> f"slides at {law.gross_slip(4e6) * 1e9:.0f} nm; {law.loss(4e6, traction=0.6e6) * 1e3:.1f} mJ/m^2 a cycle"
     'slides at 106 nm; 3.3 mJ/m^2 a cycle'
     """
-    normal = normal_law(pressed)
-    solids = solids_of(*bodies) if isinstance(bodies, tuple) else solids_of(bodies)
+    normal, solids = normal_law(pressed), solids_of(*(bodies if isinstance(bodies, tuple) else (bodies,)))
     modulus = reduced_modulus(*solids)
     if abs(modulus - normal.modulus) > 1e-6 * normal.modulus:
         raise InputError(
