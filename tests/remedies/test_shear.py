@@ -57,8 +57,8 @@ $ {SHEAR} 10MPa --profile line
 > {SHEAR} 10MPa
 
 $ {SHEAR} 10MPa,1000GPa
-! --pressures: the law holds from
-! give a pressure in this range, or use a curve whose loads include it
+! --pressures: the law of this curve ends at
+! give lower pressures
 > {SHEAR} 10MPa,1GPa
 
 $ {SHEAR} 1e16Pa

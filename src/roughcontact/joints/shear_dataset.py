@@ -13,7 +13,7 @@ from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.joints.shear_law import ShearLaw
 from roughcontact.labels.labelled import dataset_of, variable
 from roughcontact.labels.shear_columns import BY_SLIP, SHEAR, SHEAR_SCALES
-from roughcontact.validation import Array, numeric, positive
+from roughcontact.validation import Array, numeric, positive, require
 
 if TYPE_CHECKING:
     import xarray
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from roughcontact.joints.slip_cycle import SlipCycle
 
 __all__ = ["shear_dataset"]
+
+_ROUNDING = 1e-12  # of a pressure that exceeds the law by rounding
 
 
 @numeric(pressures="Pa")
@@ -59,11 +61,19 @@ def shear_dataset(
     >>> import roughcontact as rc
     >>> curve = rc.loading_curve(rc.examples.surface("ground"), ("steel", "steel"), pressures=[1e6, 1e7, 3e7, 1e8])
     >>> found = rc.shear_dataset(rc.shear_law(curve, ("steel", "steel"), friction=0.2), [3e7, 5e7], [0.5, 0.9])
-    >>> found["cycle_loss"].attrs["units"], found["damping"].values.round(3).tolist()
-    ('J m-2', [])
+    >>> found.sizes["load"], found["cycle_loss"].attrs["units"]
+    (4, 'J m-2')
     """
     given = positive(pressures, "the nominal pressure [Pa]"), positive(amplitudes, "the amplitude")
     p, share = (each.ravel() for each in np.meshgrid(*given, indexing="ij"))
+    end = law.normal.highest
+    require(
+        p <= end * (1 + _ROUNDING),
+        f"the law of this curve ends at {end:g} Pa",
+        "give lower pressures",
+        place="pressures",
+        value=p,
+    )
     traction = share * law.friction * p
     displacement, stiffness = law.displacement(traction, p), law.stiffness(p)
     loss = np.full_like(p, math.nan)

@@ -57,7 +57,7 @@ def shear_figure(law: ShearLaw, table: xarray.Dataset, cycles: Sequence[SlipCycl
     >>> law = rc.shear_law(curve, ("steel", "steel"), friction=0.2)
     >>> figure = rc.plot.shear_figure(law, rc.shear_dataset(law, [3e7, 5e7], [0.5]))
     >>> [axes.get_ylabel() for axes in figure.axes]
-    ['nominal tangential traction [MPa]', 'loss per cycle [J/m²]']
+    ['nominal tangential traction [MPa]', 'loss per cycle [mJ/m²]']
     """
     figure = Figure(figsize=(14.4 if cycles else 9.6, 4.2), layout="constrained")
     backbones, losses, *maps = figure.subplots(1, 3 if cycles else 2)

@@ -150,7 +150,7 @@ class ShearJob:
             ]
             yield Call("", (cycles,), result="cycles", place="shear", doing="Partial slip")
             beside = {"cycles": Name("cycles")}
-        fields = {"pressure": "pressures", "traction": "amplitude"}
+        fields = {"amplitudes": "amplitude", "traction": "amplitude"}
         table = (Name("law"), pressures, shares)
         yield Call("rc.shear_dataset", table, beside, result="shear", place="shear", fields=fields)
 
