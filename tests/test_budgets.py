@@ -18,7 +18,7 @@ PARAMETERS = {
 # Commands that press take every step of a preparation, and the help shows the everyday options first. Each command has
 # --quiet, --verbose and --help-all.
 OPTIONS = {
-    "curve": 68,  # two of the noise, two of the flow, two of ultrasound, four of gas, radiation and film, one of friction
+    "curve": 68,  # two of noise, two of flow, two of ultrasound, four of gas, radiation and film, one of friction
     "leak": 55,
     "joint": 55,
     "shear": 46,

@@ -42,6 +42,7 @@ JOINT = rc.specified(sigma=1e-6, slope=0.1)
 CURVE = rc.loading_curve(BALL, 1e9, forces=np.geomspace(1e-2, 1e-1, 6))
 FLOWN = rc.loading_curve(BALL, 1e9, forces=[1e-3], measures=[rc.Transmissivity(axis=0)])
 SHEARED = rc.shear_law(rc.loading_curve(ROUGH, STEEL, pressures=[1e5, 2e5, 1e6]), STEEL, friction=0.3)
+SMOOTH = SHEARED.fitted
 LINE_OPERATOR = rc.line(SCAN.grid, 1e9)
 SHAPES = {
     rc.shapes.cone: {"slope": 0.1},
@@ -188,6 +189,21 @@ MORE = [
     (rc.slide, {"solution": PRESSED, "bodies": STEEL, "friction": 0.3, "displacement": 1e-9}),
     (rc.shear_cycle, {"solution": rc.press(ROUGH, STEEL, pressure=1e6), "bodies": STEEL, "friction": 0.3,
                       "displacement": 1e-9, "steps": 1, "shear_strength": 1e5}),
+    (rc.shear_law, {"pressed": _OF_JOINT, "bodies": _STEELS, "friction": 0.3, "shear_strength": 1e8}),
+    (SMOOTH.normal.gap_at, {"pressure": 5e5}),
+    (SMOOTH.normal.stiffness_at, {"pressure": 5e5}),
+    (SMOOTH.normal.pressure_at, {"gap": float(SMOOTH.normal.gap_at(5e5))}),
+    (SMOOTH.stiffness, {"pressure": 5e5}),
+    (SMOOTH.gross_slip, {"pressure": 5e5}),
+    (SMOOTH.smallest_share, {"pressure": 5e5}),
+    (SMOOTH.displacement, {"traction": 1e4, "pressure": 5e5}),
+    (SMOOTH.traction, {"displacement": 1e-11, "pressure": 5e5}),
+    *((call, {"pressure": 5e5} | amplitude) for call in (SMOOTH.loss, SMOOTH.cycle)
+      for amplitude in ({"traction": 1e4}, {"displacement": 1e-11})),
+    (SMOOTH.history, {"pressures": [5e5, 6e5], "tractions": [0.0, 1e4]}),
+    (SMOOTH.iwan, {"pressure": 5e5, "displacement": 1e-11}),
+    (SMOOTH.elements, {"pressure": 5e5}),
+    *((call, {"displacement": 1e-11}) for call in (SMOOTH.elements(5e5).traction, SMOOTH.elements(5e5).loss)),
     (rc.shear_dataset, {"law": SHEARED, "pressures": [5e5, 1e6], "amplitudes": [0.5]}),
     *((function, {"solution": PRESSED, "bodies": STEEL, "friction": 0.3, name: [value, 2 * value]})
       for function in (rc.slide_path, rc.slide_curve) for name, value in (("forces", 1e-6), ("displacements", 1e-10))),

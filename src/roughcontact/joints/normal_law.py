@@ -196,7 +196,7 @@ class NormalLaw:
         Parameters
         ----------
         low, high : float
-            Pressures [Pa].
+            Pressures, in pascals.
 
         Returns
         -------

@@ -24,7 +24,7 @@ def nodal_flexibility(operator: Operator, interpolation: npt.ArrayLike | sparray
         The body, such as `half_space`: displacement from pressure on the m cells of a grid. With `shear_half_space` the
         fields are tangential and have 2 m values, those along x first.
     interpolation : array or sparse array, shape (m, n), or (2 m, n)
-        Shape functions N of the n nodal displacements, averaged over each cell [-]. Rows are cells in flat order. A row
+        Shape functions N of the n nodal displacements, averaged over each cell. Rows are cells in flat order. A row
         of zeros keeps the cell free of pressure.
 
     Returns
