@@ -146,11 +146,19 @@ $ {TWO} --table abaqus
 > {TWO} --table abaqus --out new
 
 $ {TWO} --table ansys --out new
-! there is no table 'ansys'; choose from csv, abaqus, abaqus-mm, lammps
+! there is no table 'ansys'; choose from csv, abaqus, abaqus-mm, calculix, calculix-mm, lammps, moose, text
 > {TWO} --table csv --out new
 > {TWO} --table abaqus --out new
 > {TWO} --table abaqus-mm --out new
+> {TWO} --table calculix --out new
+> {TWO} --table calculix-mm --out new
 > {TWO} --table lammps --out new
+> {TWO} --table moose --out new
+> {TWO} --table text --out new
+
+$ {TWO} --table calculix --friction 0.3 --out new
+! --friction needs the bodies: E* does not determine how they shear; name both by --materials, such as steel,aluminium
+> curve rough.npz --materials steel,aluminium --forces 1mN,2mN --table calculix --friction 0.3 --out new
 
 $ {TWO} --table csv,csv --out new
 ! name each table once, such as csv,abaqus

@@ -171,7 +171,7 @@ def interface_table(
     >>> len(table), bool((np.diff(table.overclosure) > 0).all())
     (3, True)
     >>> rubber = rc.Solid(1e7, 0.5)
-    >>> soft = rc.loading_curve(surface, rubber, pressures=[3e3, 1e4, 3e4])
+    >>> soft = rc.loading_curve(surface, rubber, pressures=[4e3, 1.3e4, 4e4])
     >>> table = rc.interface_table(soft, bodies=rubber, friction=0.8)
     >>> (table.stiffness / table.tangential["tangential_stiffness_per_area"]).round(6).tolist()
     [1.5, 1.5]
