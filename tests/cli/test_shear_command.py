@@ -57,7 +57,9 @@ def test_the_table_is_the_law_of_the_normal_curve(shear, home, tmp_path):
     np.testing.assert_allclose(stiffness, ratio, rtol=1e-12)
     header, first, *_ = answer.stdout.splitlines()[4:]
     assert re.split(r"  +", header.strip()) == [
-        *("nominal pressure [MPa]", "interfacial stiffness per area K/A0 [N/µm/mm²]", "K_t/A0 [N/µm/mm²]"),
+        "nominal pressure [MPa]",
+        "interfacial stiffness per area K/A0 [N/µm/mm²]",
+        "tangential stiffness per area K_t/A0 [N/µm/mm²]",
         *(
             "gross slip [nm]",
             "tau/(mu p)",

@@ -191,7 +191,10 @@ INTERFACE: Table = {
     (): (Column("zero_gap", "m", "mean gap at which the pressure of the table begins"),),
 }
 TANGENTIAL = Column(
-    "tangential_stiffness_per_area", "Pa m-1", "tangential stiffness without slip over the nominal area"
+    "tangential_stiffness_per_area",
+    "Pa m-1",
+    "tangential stiffness over the nominal area while nothing slips",
+    label="tangential stiffness per area K_t/A0",
 )
 
 CONDUCTION = columns("""

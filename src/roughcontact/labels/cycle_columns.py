@@ -5,7 +5,7 @@ from __future__ import annotations
 from types import MappingProxyType
 
 from roughcontact.labels.column import CELLS, Table, columns
-from roughcontact.labels.contact_columns import CERTIFICATES, POINTS, STATUS
+from roughcontact.labels.contact_columns import CERTIFICATES, POINTS, STATUS, TANGENTIAL
 
 __all__ = ["CYCLE", "CYCLE_NAMES", "ESTIMATE"]
 
@@ -22,9 +22,8 @@ CYCLE: Table = {
     (CELLS,): columns("heat | J m-2 | energy that friction dissipates in the cycle, per area of the cell"),
     (): (
         *(column for column in POINTS if column.name == "nominal_pressure"),
+        TANGENTIAL,
         *columns("""
-            tangential_stiffness_per_area | Pa m-1 | tangential stiffness over the nominal area while nothing slips \
-                | | K_t/A0
             stiffness_ratio | 1 | normal over tangential interfacial stiffness | | K/K_t
             cycle_loss | J m-2 | energy that friction dissipates in a cycle, over the nominal area \
                 | | loss per cycle
