@@ -10,8 +10,10 @@ import roughcontact as rc
 from made_laws import PER_DECADE, exponential_law, power_law, under_shear
 
 A = 0.9
-# A cubic through logarithms: by Taylor series, the slope of exp(b x) at steps of h is off by b^2 h^2/12 or less.
-INTERPOLATION = ((1 - A) * math.log(10) / PER_DECADE) ** 2 / 12
+# The slope of a cubic with the values and slopes of g at both ends of h is off by at most sqrt(3)/216 h^3 times its
+# fourth derivative: here relative to the slope p^-a, with h over p. The hyperbola of the law is off by 6e-8.
+STEP = 10 ** (1 / PER_DECADE) - 1
+INTERPOLATION = A * (A + 1) * (A + 2) * STEP**3 * math.sqrt(3) / 216
 
 
 def rising(n, law=None):
@@ -110,7 +112,7 @@ def test_conductance_adds_up_and_is_that_of_the_stiffness():
 
 
 def test_an_exponential_law_slips_alike_under_any_field():
-    """Q = mu P (1 - exp(-s/(mu C l))); its gap is linear in ln p, where the cubic is exact."""
+    """Q = mu P (1 - exp(-s/(mu C l))); its gap is off by 5e-11, a part of 5e-10 of l, of the least share of 3e-3."""
     joint = rising(64, under_shear(exponential_law()))
     s = np.array([1e-4, 1e-2, 5e-2])
     expected = 0.3 * -np.expm1(-s / (0.3 * 0.1))
@@ -170,7 +172,7 @@ def test_cells_without_pressure_and_below_the_law_are_left_out():
     assert joint.left_out_force == pytest.approx(1e-9)
     np.testing.assert_array_equal(joint.loaded, [[0, 0, 0, 1], [1, 1, 1, 0]])
     np.testing.assert_allclose(
-        joint.stiffness_per_area, [[0, np.nan, 0, 20], [10, 10, 1e-4, 0]], rtol=1e-12, atol=0
+        joint.stiffness_per_area, [[0, np.nan, 0, 20], [10, 10, 1e-4, 0]], rtol=1e-6, atol=0
     )
     assert any(
         "lowest load of the law, are left out. They carry 2.5e-06 % of the force" in each

@@ -14,7 +14,7 @@ KAPPA = np.array([4e-20, 1e-20, 0.25e-20])  # at 1, 2 and 4 MPa: kappa ~ p^-2
 
 def joint(pressure, kappa=KAPPA, spacing=1e-4):
     p = np.geomspace(1e6, 4e6, len(kappa))
-    made = law(p, -np.log(p), 0.0, transmissivity=np.asarray(kappa, float))
+    made = law(p, -np.log(p), p, 0.0, transmissivity=np.asarray(kappa, float))
     return rc.joint(made, rc.PressureField(pressure, spacing))
 
 

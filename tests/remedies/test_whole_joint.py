@@ -24,7 +24,7 @@ def joint(made=None, pressure=EVEN, **named):
 
 
 def leak(pressure=HOLE, fluid=None, **columns):
-    made = law(P, -np.log(P), 0.0, **(columns or {"transmissivity": np.array([2e-20, 1e-20])}))
+    made = law(P, -np.log(P), P, 0.0, **(columns or {"transmissivity": np.array([2e-20, 1e-20])}))
     return rc.joint_leak(joint(made, pressure), fluid or rc.Liquid(1e-3), drop=1e5)
 
 
