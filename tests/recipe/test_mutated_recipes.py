@@ -222,7 +222,7 @@ FROM_ZERO = {
     *("Bodies.poisson", "Bodies.poisson2", "Theories.hurst", "SelfAffine.hurst", "SelfAffine.seed"),
     *("Specified.hurst", "SpecifiedJoint.hurst", "Specified.seed"),
     *("Fluid.vapour_pressure", "Seal.downstream", "Seal.axis", "LeakAlong.leak", "JointLeak.leak"),
-    *("Preparation.form", "Preparation.share"),
+    *("Preparation.form", "Preparation.share", "JointPressure.half_angle"),
 }
 
 
