@@ -190,7 +190,7 @@ INSTRUCTED = {
     *("FallingLoads.depths", "FallingLoads.forces", "FallingLoads.pressures"),
     *("File.file", "File.channel", "File.unit", "File.sha256", "InPython.surface_sha256"),
     *("LoadHistory.history", "ViscoelasticBody.material", "ViscoelasticBody.sha256"),
-    *("JointPressure.pressure_field", "JointPressure.sha256"),
+    *("JointPressure.pressure_field", "JointPressure.sha256", "Shear.pressures"),
 }
 # What no field takes, but flags and names by their kind; TOML has all of them, except bytes and the last three.
 WRONG_KINDS = {
