@@ -11,7 +11,7 @@ import pytest
 from scipy.integrate import quad
 
 import roughcontact as rc
-from interfaces import exponential, hertz, law_of, power
+from made_laws import exponential, hertz, power, sheared
 from roughcontact.errors import InputError
 from roughcontact.solver.control import Status
 
@@ -98,13 +98,13 @@ def test_stiffness_rises_whatever_the_loads():
     rng = np.random.default_rng(3)
     p = np.sort(rng.uniform(1, 10, 12))
     gap = -np.log(p)
-    normal = law_of(lambda p: gap, lambda p: p * rng.lognormal(0, 0.5, p.shape), 0.5, pressure=p).normal
+    normal = sheared(lambda p: gap, lambda p: p * rng.lognormal(0, 0.5, p.shape), 0.5, pressure=p).normal
     at = np.linspace(0, p[-1], 2000)
     assert (np.diff(normal.stiffness_at(at)) > -1e-9).all()
     np.testing.assert_allclose(normal.gap_at(p), gap, atol=1e-14)
     assert min(normal.bow(low, 7.3) for low in (0.0, 0.3, 1.1, 7.2, 7.2999)) > 0
     # Four loads of a spring: the gap is straight, also in between.
-    spring = law_of(
+    spring = sheared(
         lambda p: -2 * p, lambda p: np.full_like(p, 0.5), 0.0, pressure=np.array([1.0, 2, 4, 5])
     ).normal
     np.testing.assert_allclose(spring.gap_at([0.3, 1.7, 4.9]), [-0.6, -3.4, -9.8], rtol=1e-14)
@@ -182,7 +182,7 @@ def test_the_fitted_law_meets_a_power_law(a):
     """The stiffness of the loads is not used. Exact to the passes of the fit; order 4 between 400 loads."""
     p = np.array([0.01, 0.03, 0.5, 1.0])
     gap = (lambda p: -np.log(p)) if a == 1 else (lambda p: -(p ** (1 - a)) / (1 - a))
-    fitted = law_of(gap, np.ones_like, 0.0 if a < 1 else math.nan, pressure=p).normal.fitted
+    fitted = sheared(gap, np.ones_like, 0.0 if a < 1 else math.nan, pressure=p).normal.fitted
     at = np.array([0.01, 0.1, 0.77, 1.0])
     np.testing.assert_allclose(fitted.stiffness_at(at), at**a, rtol=1e-6)
     np.testing.assert_allclose(fitted.gap_at(at), gap(at), rtol=1e-6, atol=1e-12)
@@ -191,7 +191,7 @@ def test_the_fitted_law_meets_a_power_law(a):
     with pytest.raises(
         InputError, match="needs three loads, and this law has two: press the map by more loads"
     ):
-        law_of(gap, np.ones_like, math.nan, pressure=p[:2]).normal.fitted  # noqa: B018
+        sheared(gap, np.ones_like, math.nan, pressure=p[:2]).normal.fitted  # noqa: B018
 
 
 def test_a_law_takes_units():

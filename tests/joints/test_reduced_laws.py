@@ -7,7 +7,7 @@ import pint
 import pytest
 
 import roughcontact as rc
-from interfaces import exponential, hertz, power
+from made_laws import exponential, hertz, power
 from roughcontact.errors import InputError
 
 MU = 0.3

@@ -9,7 +9,7 @@ import pint
 import pytest
 
 import roughcontact as rc
-from interfaces import exponential, hertz, power
+from made_laws import exponential, hertz, power
 from roughcontact.errors import InputError
 from roughcontact.theory import hertz as hertz_law
 from roughcontact.theory.joints import jaeger
@@ -301,9 +301,22 @@ class TestExactness:
         assert not law.exact
         assert [next(part for part in notes if part in note) for note in law.notes] == notes
         with pytest.raises(
-            InputError, match="exact only for alike bodies of Poisson's ratio 0: leave out `exact`"
+            InputError,
+            match="exact only for alike bodies of Poisson's ratio 0 and for periodic maps: leave out `exact`",
         ):
             self.law(*bodies, exact=True)
+
+    def test_free_maps(self):
+        """The mean displacement of the surfaces is then not that of the bodies, whose work friction dissipates."""
+        flat = rc.Surface(GROUND.heights, rc.Grid((32, 48), (2e-6, 1e-6)))
+        bodies = (rc.Solid(1e11, 0.0), rc.Solid(1e11, 0.0))
+        loop = rc.loading_loop(flat, bodies, hardness=5e9, pressures=PRESSURES[-3:])
+        for pressed in (rc.loading_curve(flat, bodies, pressures=PRESSURES[-3:]), loop):
+            law = rc.shear_law(pressed, bodies, friction=0.2)
+            assert (law.exact, law.normal.free, law.normal.fitted.free) == (False, True, True)
+            assert sum("friction dissipates more" in note for note in law.notes) == 1
+        assert not LAW.normal.free
+        assert not any("friction dissipates more" in note for note in LAW.notes)
 
     def test_unlike_but_not_coupled(self):
         """Dundurs's parameter vanishes for equal G/(1 - 2 nu) only; nu = 0.5 on both sides is such a pair."""

@@ -124,7 +124,7 @@ class TestCiavarellaAndJaeger:
         )
 
     def test_the_loss_of_the_curve(self, exact, periodic):
-        """Monotone cubics between loads that are an eighth of p apart: 2 % of the loss.
+        """A hyperbola between loads that are an eighth of p apart: 2 % of the loss.
 
         On a free map, the law has the loop of the surfaces, whose area is not the loss: a note states the ratio.
         """

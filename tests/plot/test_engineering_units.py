@@ -102,7 +102,7 @@ def test_numbers_of_a_power_keep_to_a_range_between_prefixes(power):
 
 def test_every_unit_of_the_table_can_be_printed():
     mechanics, conductance = (
-        {"", "N", "m", "N/m", "m²", "m³", "J", "Pa"},
+        {"", "N", "m", "N/m", "N·m/rad", "m²", "m³", "J", "Pa"},
         {"S", "ohm", "W/K", "K/W", "A", "V", "W", "K"},
     )
     flows = {"m³/s", "kg/s", "Pa·m³/s"}

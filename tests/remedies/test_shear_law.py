@@ -74,9 +74,11 @@ ROWS = [
     ),
     row(
         lambda: law(rc.loading_curve(MAP, STIFF, pressures=PRESSURES), STIFF, exact=True),
-        "is exact only for alike bodies of Poisson's ratio 0: leave out `exact`, or use slide_curve",
+        "of Poisson's ratio 0 and for periodic maps: leave out `exact`, or compute cycles by rc.shear_cycle",
         lambda: law(rc.loading_curve(MAP, STIFF, pressures=PRESSURES), STIFF),
-        lambda: rc.slide_curve(rc.press(MAP, STIFF, pressure=1e6), STIFF, friction=0.3, forces=[1e-5]),
+        lambda: rc.shear_cycle(
+            rc.press(MAP, STIFF, pressure=1e6), STIFF, friction=0.3, traction=1e5, steps=2
+        ),
     ),
     row(
         lambda: LAW.displacement(0.4e6, 1e6),

@@ -15,7 +15,6 @@ from roughcontact import methods
 from roughcontact.adhesion.adhesive_state import AdhesiveState
 from roughcontact.adhesion.attraction import Adhesion
 from roughcontact.adhesion.control_form import ForceControl
-from roughcontact.adhesion.lowest_force import FORCE_TOLERANCE
 from roughcontact.adhesion.model_limits import (
     HighestSummit,
     notes_on_loads,
@@ -282,7 +281,6 @@ class AdhesiveCurve:
                 last=float(self.force[deepest]),
                 unit=unit_of("force", self.geometry),
                 control=self.control,
-                rel=FORCE_TOLERANCE,
             )
             yield from notes_on_range(summit, self.adhesion)
         if self.ambiguous:

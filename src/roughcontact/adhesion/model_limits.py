@@ -21,6 +21,7 @@ from typing import Literal
 import numpy as np
 
 from roughcontact.adhesion.attraction import Adhesion
+from roughcontact.adhesion.lowest_force import FORCE_TOLERANCE
 from roughcontact.grid import RadialGrid
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, geometry_of
@@ -162,17 +163,20 @@ def notes_on_status(status: Sequence[Status], residual: Sequence[float] | Array)
 
 
 def notes_on_loads(
-    *, lowest: float, first: float, last: float, unit: str, control: Literal["depth", "force"], rel: float = 0
+    *, lowest: float, first: float, last: float, unit: str, control: Literal["depth", "force"]
 ) -> Iterator[Note]:
-    """Yield a note if the lowest force of a retreat is that of its first or last load: it is not a pull-off force."""
+    """Yield a note if the lowest force of a retreat is that of its first or last load: it is not a pull-off force.
+
+    Both forces are known to `FORCE_TOLERANCE` at best: the lowest is computed in another order, and differs by rounding.
+    """
     force = f"its lowest force, {written(lowest, unit)} (tension is negative)"
-    if lowest >= last - rel * abs(last):
+    if lowest >= last - FORCE_TOLERANCE * abs(last):
         yield Note(
             Rank.WRONG,
             f"The retreat ends at {force}, with the surfaces still together: that is not their pull-off force. "
             f"Continue to lower {control}s until they are apart.",
         )
-    elif lowest >= first - rel * abs(first):
+    elif lowest >= first - FORCE_TOLERANCE * abs(first):
         yield Note(
             Rank.WRONG,
             f"The retreat begins at {force}, so that this force depends on where it begins: it is not the pull-off "

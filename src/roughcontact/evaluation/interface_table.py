@@ -174,7 +174,7 @@ def interface_table(
     >>> soft = rc.loading_curve(surface, rubber, pressures=[4e3, 1.3e4, 4e4])
     >>> table = rc.interface_table(soft, bodies=rubber, friction=0.8)
     >>> (table.stiffness / table.tangential["tangential_stiffness_per_area"]).round(6).tolist()
-    [1.5, 1.5]
+    [1.5, 1.5, 1.5]
     """
     if curve.geometry is not Geometry.SURFACE:
         raise InputError(

@@ -63,6 +63,8 @@ class NormalLaw:
         Pressure at which cells flowed before [Pa]; infinite for an elastic curve.
     columns : dict of array
         Other numbers of the loads: contact fraction, and the measures of the curve.
+    free : bool
+        Whether edges of the map are free.
 
     Raises
     ------
@@ -92,6 +94,7 @@ class NormalLaw:
     modulus: float
     hardness: float
     columns: dict[str, Array]
+    free: bool = False
 
     def __post_init__(self) -> None:
         gaps = self.gap if math.isnan(self.touch) else np.append(self.touch, self.gap)
@@ -369,4 +372,5 @@ def normal_law(pressed: Curve | Loop) -> NormalLaw:
         pressed.loading.hardness if isinstance(pressed, Loop) else math.inf,
         {"contact_fraction": curve.contact_fraction[kept]}
         | {name: values[kept] for name, values in curve.measured.items()},
+        not all(curve.periodic),
     )

@@ -21,7 +21,6 @@ import numpy as np
 from roughcontact import methods
 from roughcontact.contact.curve import Curve
 from roughcontact.contact.loop import Loop
-from roughcontact.errors import InputError
 from roughcontact.friction.slip_solution import UNLIKE
 from roughcontact.guesses import hinted
 from roughcontact.halfspace.shear.shear_operator import dundurs_parameter
@@ -33,10 +32,11 @@ from roughcontact.materials import Elastic, reduced_modulus, solids_of
 from roughcontact.theory.joints.mindlin import pair_ratio
 from roughcontact.validation import Array, exactly_one, numeric, positive, positive_scalar, require
 
-__all__ = ["ShearLaw", "shear_law"]
+__all__ = ["FLOWED", "ShearLaw", "shear_law"]
 
 ROUNDING = 1e-12  # of a traction
 BELOW = "p - tau/mu lies below the lowest load of the curve, and the gap at first touch is not known"
+FLOWED = "The surface has flowed: junction growth and the plastic flow under shear are neglected."
 TOUCH = "give a smaller amplitude, or use a curve with smaller loads, of a periodic map without missing cells"
 
 
@@ -83,8 +83,8 @@ class ShearLaw:
 
     @property
     def exact(self) -> bool:
-        """Whether the law is exact: Poisson's ratio is 0, and the bodies are alike."""
-        return all(body.poisson_ratio == 0 for body in self.bodies) and not self._beta
+        """Whether the law is exact: Poisson's ratio is 0, the bodies are alike, and no edge of the map is free."""
+        return not (any(body.poisson_ratio for body in self.bodies) or self._beta or self.normal.free)
 
     @property
     def fitted(self) -> ShearLaw:
@@ -145,9 +145,8 @@ class ShearLaw:
             If the traction exceeds mu p, or p - tau/mu lies below the lowest pressure of the normal law.
         """
         held = self._held(traction, pressure)
-        return np.asarray(
-            self.friction * self.ratio * (self.normal.gap_at(held) - self.normal.gap_at(pressure))
-        )
+        closure = self.normal.gap_at(held) - self.normal.gap_at(pressure)
+        return np.asarray(self.friction * self.ratio * closure)
 
     @numeric(displacement="m", pressure="Pa")
     def traction(self, displacement: float | Array, pressure: float | Array) -> Array:
@@ -267,6 +266,12 @@ class ShearLaw:
                 "The gap at first touch is not known, as for free maps and maps with missing cells: the law ends where "
                 f"p - tau/mu is {self.normal.lowest:.3g} Pa, and the displacement at gross slip is NaN.",
             )
+        if self.normal.free:
+            yield Note(
+                Rank.LIMITED,
+                "The edges of the map are free: the loss is that of the mean displacement of the surfaces, and friction "
+                "dissipates more, which rc.shear_cycle computes.",
+            )
         if any(body.poisson_ratio for body in self.bodies):
             yield Note(
                 Rank.LIMITED,
@@ -274,14 +279,9 @@ class ShearLaw:
                 "neglected, and K/K_t is that of a disc.",
             )
         if math.isfinite(self.normal.hardness):
-            yield Note(
-                Rank.LIMITED,
-                "Spots that have flowed bear little additional traction: junction growth and the plastic flow under "
-                "shear are neglected.",
-            )
+            yield Note(Rank.LIMITED, FLOWED)
         if self.shear_strength < math.inf:
-            fraction = self.normal.columns["contact_fraction"]
-            means = self.friction * self.normal.pressure / fraction
+            means = self.friction * self.normal.pressure / self.normal.columns["contact_fraction"]
             if (beyond := means > self.shear_strength).any():
                 p = float(self.normal.pressure[beyond][0])
                 yield Note(
@@ -378,12 +378,12 @@ def shear_law(
     """
     normal, solids = normal_law(pressed), solids_of(*(bodies if isinstance(bodies, tuple) else (bodies,)))
     modulus = reduced_modulus(*solids)
-    if abs(modulus - normal.modulus) > 1e-6 * normal.modulus:
-        raise InputError(
-            f"these bodies have a reduced modulus of {modulus:.6g} Pa, but were pressed with {normal.modulus:.6g} Pa",
-            "use the same bodies for both",
-            "bodies",
-        )
+    require(
+        abs(modulus - normal.modulus) <= 1e-6 * normal.modulus,
+        f"these bodies have a reduced modulus of {modulus:.6g} Pa, but were pressed with {normal.modulus:.6g} Pa",
+        "use the same bodies for both",
+        place="bodies",
+    )
     law = ShearLaw(
         normal,
         positive_scalar(friction, "the friction coefficient"),
@@ -393,8 +393,8 @@ def shear_law(
     )
     require(
         law.exact or not exact,
-        "the law from the normal curve is exact only for alike bodies of Poisson's ratio 0",
-        "leave out `exact`, or use slide_curve",
+        "the law from the normal curve is exact only for alike bodies of Poisson's ratio 0 and for periodic maps",
+        "leave out `exact`, or compute cycles by rc.shear_cycle",
         place="exact",
     )
     return law

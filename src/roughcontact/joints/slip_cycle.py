@@ -30,7 +30,7 @@ from roughcontact.friction.tangential_stiffness import TOLERANCE, displaced
 from roughcontact.guesses import hinted
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.joints.masing import ShearCycle
-from roughcontact.joints.shear_law import ShearLaw
+from roughcontact.joints.shear_law import FLOWED, ShearLaw
 from roughcontact.labels.cycle_columns import CYCLE, CYCLE_NAMES, ESTIMATE
 from roughcontact.labels.labelled import centres, dataset_of, variables_of
 from roughcontact.labels.note import Note, Rank, in_order
@@ -173,8 +173,7 @@ class SlipCycle:
             yield Note(Rank.WRONG, f"{text}: Coulomb's law is wrong there.")
         yield from (Note(Rank.DOUBTFUL, text) for text in self.reversal.notes)
         if pressed.flow is not None:
-            text = "The surface has flowed: junction growth and the plastic flow under shear are neglected."
-            yield Note(Rank.LIMITED, text)
+            yield Note(Rank.LIMITED, FLOWED)
         if not all(pressed.problem.grid.periodic):
             areas = [
                 np.trapezoid(self.loop.traction, moved)
