@@ -167,7 +167,7 @@ def notes_on_loads(
 ) -> Iterator[Note]:
     """Yield a note if the lowest force of a retreat is that of its first or last load: it is not a pull-off force.
 
-    Both forces are known to `FORCE_TOLERANCE` at best: the lowest is computed in another order, and differs by rounding.
+    Equal forces differ by rounding, because they are computed in different orders.
     """
     force = f"its lowest force, {written(lowest, unit)} (tension is negative)"
     if lowest >= last - FORCE_TOLERANCE * abs(last):

@@ -269,7 +269,7 @@ class ShearLaw:
         if self.normal.free:
             yield Note(
                 Rank.LIMITED,
-                "The edges of the map are free: the loss is that of the mean displacement of the surfaces, and friction "
+                "The edges of the map are free: the loss is that of the mean displacement of the surfaces. Friction "
                 "dissipates more, which rc.shear_cycle computes.",
             )
         if any(body.poisson_ratio for body in self.bodies):
