@@ -21,6 +21,7 @@ from pathlib import Path
 
 from law_check import check
 from law_counts import counts, runs
+from law_crest import e8
 from law_ensembles import FOLDER, ROOT, STUDIES, collect
 from law_findings import findings, result_tables
 from law_formula import formula
@@ -36,7 +37,7 @@ from roughcontact.study.task import generator
 DOCS = ROOT / "docs"
 PAGES = tuple(DOCS / "evidence" / f"{name}.md" for name in ("law", "law-ensembles", "law-grids"))
 DATA = DOCS / "data" / "law"
-PARTS = (result_tables, formula, e1, e2, e3, e4, e5, e6, e7)
+PARTS = (result_tables, formula, e1, e2, e3, e4, e5, e6, e7, e8)
 _PLACE = re.compile(r"(<!-- table (\S+) -->\n).*?(<!-- end -->)", re.DOTALL)
 
 

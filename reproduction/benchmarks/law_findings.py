@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
+from law_crest import by_cut, laws_of
 from law_ensembles import FOLDER, Values, error, law, read, resampled, value
 from law_tables import (
     DECADES,
@@ -25,17 +26,17 @@ from law_tables import (
 )
 
 SIDE, UP = 2, 3  # standard errors within which a difference is none, and beyond which it is one
-LOW = 1.2  # H up to which single decades of force are too short
+SHOWN_HURST = (0.25, 0.4, 0.7, 1.0, 1.3, 1.6, 1.9)
 
 
 def findings(folder: Path = FOLDER) -> list[str]:
-    """Return the results of E1 in sentences."""
-    return [*_smooth(folder), *_averages(folder)]
+    """Return the results of E8 and E1 in sentences."""
+    return [*_interior(folder), *_averages(folder)]
 
 
 def result_tables(folder: Path = FOLDER) -> dict[str, Table]:
-    """Return the results of E1 and E2 in tables."""
-    return _exponents(folder) | _grids(folder)
+    """Return the results of E2 in tables."""
+    return _grids(folder)
 
 
 def word(off: float, spread: float, what: str) -> str:
@@ -51,35 +52,31 @@ def at(found: Values, samples: int, hurst: float) -> str:
     return percent(float(value(one)), float(error(one, samples)))
 
 
-def _exponents(folder: Path) -> dict[str, Table]:
-    """Return how far the exponent is from 1/(H + 1), in the window of the thesis and in decades of force."""
-    ensemble = read("e1-surfaces", folder)
-    if ensemble is None:
-        return {}
-    found = e1_laws(ensemble)
-    samples, hurst = found.attrs["samples"], found["hurst"]
-    force, stiffness, _ = curves(ensemble)
-    mean = resampled(stiffness)
-    off = found["alpha_mean"] * (hurst + 1) - 1
-    decades = [law(force, mean, between(force, *ends))[0] * (hurst + 1) - 1 for ends in DECADES[1:]]
-    body = [
-        [f"{h:g}", at(off, samples, h), *(at(each, samples, h) if h > LOW else "-" for each in decades)]
-        for h in (0.25, 0.7, 1.0, 1.3, 1.6, 1.9)
-    ]
-    head = ["H", "window of the thesis", *(f"from {low:g} to {high:g}" for low, high in DECADES[1:])]
-    return {"results-exponent": (head, body)}
-
-
-def _smooth(folder: Path) -> Iterator[str]:
-    ensemble = read("e1-surfaces", folder)
+def _interior(folder: Path) -> Iterator[str]:
+    """Yield what the law of the surface is, and what the cut of the square changes."""
+    ensemble = read("e8-cut", folder)
     if ensemble is None:
         return
-    found = e1_laws(ensemble)
-    smooth = found["alpha_mean"].sel(hurst=2.95)
-    pair = float(value(smooth)), float(error(smooth, found.attrs["samples"]))
+    cuts = by_cut(ensemble)
+    samples = ensemble.sizes["sample"]
+    alphas = {cut: laws_of(one)[0] for cut, one in cuts.items()}
+    hurst = ensemble["hurst"]
+    off = {cut: alpha * (hurst + 1) - 1 for cut, alpha in alphas.items()}
+    listed = ", ".join(f"{at(off['interior'], samples, h)} at H = {h:g}" for h in SHOWN_HURST)
+    yield f"The law: the interior exponent differs from 1/(H + 1) by {listed}."
+    listed = ", ".join(f"{at(off['period'], samples, h)} at H = {h:g}" for h in SHOWN_HURST)
+    yield f"The cut: with a random cut, the exponent differs from 1/(H + 1) by {listed}."
+    smooth = [alphas[cut].sel(hurst=2.95) for cut in ("interior", "period")]
+    pairs = [(float(value(one)), float(error(one, samples))) for one in smooth]
+    inner = cuts["interior"].sel(hurst=2.95)
+    low = law(
+        inner["dimensionless_force"], inner["mean"], between(inner["dimensionless_force"], *DECADES[1])
+    )[0]
+    decade = told(float(value(low)), float(error(low, samples)), 4)
     yield (
-        f"Smooth surfaces: at H = 2.95 the exponent is {told(*pair)}, "
-        f"{word(pair[0] - 1 / 3, pair[1], 'the 1/3 of one smooth crest')}."
+        f"Smooth surfaces: at H = 2.95 the interior exponent is {told(*pairs[0])}, "
+        f"{word(pairs[0][0] - 1 / 3, pairs[0][1], 'the 1/3 of one smooth crest')}, and {decade} from "
+        f"{DECADES[1][0]:g} to {DECADES[1][1]:g} E* h L. With a random cut it is {told(*pairs[1])}."
     )
 
 

@@ -7,7 +7,19 @@ from pathlib import Path
 
 import numpy as np
 import xarray
-from law_ensembles import CELLS, FOLDER, Values, error, interpolated, law, paired, read, resampled, value
+from law_ensembles import (
+    CELLS,
+    FOLDER,
+    STUDIES,
+    Values,
+    error,
+    interpolated,
+    law,
+    paired,
+    read,
+    resampled,
+    value,
+)
 from law_tables import (
     HIGHEST,
     MIDDLE,
@@ -21,6 +33,8 @@ from law_tables import (
     resolved,
 )
 
+from roughcontact.study.study import Study
+from roughcontact.study.task import generator
 from roughcontact.theory.spheres_and_punches import rough_sphere
 
 PRESSURES = (1e-3, 1e-2, 1e-1)  # p l/(E* h), l the roll-off
@@ -76,52 +90,54 @@ def e3(folder: Path = FOLDER) -> dict[str, Table | str]:
 
 
 def e4(folder: Path = FOLDER) -> dict[str, Table | str]:
-    """Return what amplitudes and the shape of the band do to exponent, prefactor and stiffness."""
+    """Return what amplitudes and the shape of the band change, at the rms height of each surface."""
     ensemble = read("e4-models", folder)
     if ensemble is None:
         return {}
     force, stiffness, samples = curves(ensemble)
-    mean = resampled(stiffness)
-    first = ensemble.isel(row=0).sel(amplitudes="exact")
-    inside = resolved(first, mean.isel(row=0).sel(amplitudes="exact"))
-    alpha, zeta = law(force, mean, inside)
-    level = zeta * MIDDLE**alpha
+    heights = rms_heights("e4-models", ensemble)
+    level = resampled(np.exp(interpolated(np.log(MIDDLE * heights), force, stiffness)))
+    nominal = resampled(np.exp(interpolated(np.log(MIDDLE * heights**0), force, stiffness)))
+    first = {"row": 0, "amplitudes": 0}
     body = []
     for place, h in enumerate(ensemble["hurst"].to_numpy()):
-        for row, shape in ((0, "square"), (1, "disc")):
-            for amplitudes in ("exact", "gaussian"):
-                here = {"hurst": place, "row": row}
-                a, k = (each_.isel(here).sel(amplitudes=amplitudes) for each_ in (alpha, level))
-                a0, k0 = (each_.isel(hurst=place, row=0).sel(amplitudes="exact") for each_ in (alpha, level))
-                model = f"{shape}, {amplitudes}"
-                differs = (
-                    ["", ""]
-                    if (row, amplitudes) == (0, "exact")
-                    else [each(one(a - a0), samples, 3, "+")[0], each_percent(one(k / k0 - 1), samples)[0]]
-                )
-                body.append(
-                    [f"{h:g}", model, each(one(a), samples)[0], each(one(k), samples, 4)[0], *differs]
-                )
-    head = [
-        "H",
-        "waves, amplitudes",
-        "alpha",
-        f"k/(E* L) at {MIDDLE:g}",
-        "alpha, difference",
-        "k, difference",
-    ]
-    first = level.isel(row=0).sel(amplitudes="exact")
+        for row, shape in enumerate(("square", "disc")):
+            for kind, amplitudes in enumerate(("exact", "gaussian")):
+                here = {"hurst": place, "row": row, "amplitudes": kind}
+                line = [f"{h:g}", f"{shape}, {amplitudes}"]
+                line.append(f"{100 * float(heights.isel(here).std('sample')):.1f} %")
+                line += each(one(level.isel(here)), samples, 4)
+                for k in (level, nominal):
+                    ratio = k.isel(here) / k.isel(first | {"hurst": place}) - 1
+                    line += each_percent(one(ratio), samples) if row or kind else ["-"]
+                body.append(line)
+    head = ["H", "waves, amplitudes", "scatter of the rms height", f"k/(E* L) at {MIDDLE:g}"]
     models = {
         "Gaussian amplitudes": {"row": 0, "amplitudes": 1},
         "A disc of wave vectors": {"row": 1, "amplitudes": 0},
     }
     said = "Random model: " + " ".join(
         f"{words} change{'s' * (words[0] == 'A')} the mean stiffness at {MIDDLE:g} E* h L by "
-        f"{at_hurst(each_percent(level.isel(place) / first - 1, samples), ensemble['hurst'])}."
+        f"{at_hurst(each_percent(level.isel(place) / level.isel(first) - 1, samples), ensemble['hurst'])}."
         for words, place in models.items()
     )
-    said += f" ({samples} surfaces.)"
-    return {"e4": (head, body), "e4 said": said}
+    said += f" h is the rms height of each surface ({samples} surfaces)."
+    return {"e4": ([*head, "k, difference", "k, difference at one h for all"], body), "e4 said": said}
+
+
+def rms_heights(name: str, ensemble: xarray.Dataset) -> Values:
+    """Return the rms height of every surface of a study over that of its parameters; the surfaces are drawn again."""
+    study = Study.read(STUDIES / f"{name}.toml")
+    shape = ensemble["dimensionless_stiffness"].isel(load=0, drop=True)
+    outer = [each_ for each_ in shape.dims if each_ != "sample"]
+    samples = ensemble["sample"].to_numpy()
+    found = [
+        [parameters.roughness(generator(study.seed, int(sample))).rms / parameters.rms for sample in samples]
+        for parameters in study.combinations()
+    ]
+    sizes = [shape.sizes[each_] for each_ in outer]
+    dims = (*outer, "sample")
+    return Values(np.reshape(found, (*sizes, len(samples))), dims=dims, coords=shape.transpose(*dims).coords)
 
 
 # E5
@@ -167,7 +183,11 @@ def flat(ensemble: xarray.Dataset) -> Table:
         pressure = force * float(rolloff)
         inside = between(pressure, *PRESSURES[::2])
         free, periodic = ({"row": row, "periodic": each_} for each_ in (0, 1))
-        slopes = [law(force, k, inside)[0] for k in (gap.isel(periodic), gap.isel(free), approach.isel(free))]
+        least = CELLS * float(ensemble["cell_stiffness"].isel(row=row).max())
+        slopes = [
+            law(force, k, inside & (value(k) > least))[0]
+            for k in (gap.isel(periodic), gap.isel(free), approach.isel(free))
+        ]
         line = [each(one(slope), samples)[0] for slope in slopes]
         for at in PRESSURES:
             load = {"load": load_at(pressure, at)}

@@ -9,8 +9,10 @@ from typing import Any
 import matplotlib
 import numpy as np
 import xarray
+from law_crest import at_border, by_cut, effects, laws_of
+from law_cut import integrals, stiffness_ratio
 from law_ensembles import CELLS, FOLDER, Values, error, law, read, resampled, value
-from law_tables import HIGHEST, LIMITS, MIDDLE, between, curves, e1_laws, load_at, nested, on_grids
+from law_tables import HIGHEST, LIMITS, MIDDLE, between, curves, load_at, nested, on_grids
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -18,14 +20,18 @@ from roughcontact_thesis import drawing
 
 SHOWN = (7e-4, 7e-3, HIGHEST)  # forces at which convergence is drawn
 LEAST = 5  # cells of stiffness below which nothing is drawn
+CRESTS = (0.7, 1.3, 2.95)  # H of the crests at a border that are drawn
+EFFECTS = (0.25, 0.7, 1.3, 1.9, 2.95)  # H of the effects of a cut that are drawn
 SPAN = 2  # loads on either side of a local exponent: 0.8 decades in all
 
 
 def pictures(folder: Path = FOLDER) -> Iterator[tuple[str, Figure]]:
     """Yield every picture for which there are ensembles, by name."""
-    surfaces, lines = read("e1-surfaces", folder), read("e1-lines", folder)
+    surfaces, lines, border = (read(name, folder) for name in ("e8-cut", "e1-lines", "e8-border"))
     if surfaces is not None and lines is not None:
         yield "exponents", drawn(4.0, exponents, surfaces, lines)
+    if surfaces is not None and border is not None:
+        yield "cut", drawn(4.0, cut, surfaces, border)
     ensembles = on_grids(folder)
     for name, (words, wanted) in LIMITS.items():
         same = nested(ensembles, wanted)
@@ -46,36 +52,59 @@ def drawn(height: float, draw: Any, *given: Any) -> Figure:
     return picture
 
 
-def exponents(figure: Figure, surfaces: xarray.Dataset, lines: xarray.Dataset) -> None:
-    """Draw exponents (a) and stiffnesses at one force (b) of surfaces and lines beside the thesis' law."""
+def exponents(figure: Figure, ensemble: xarray.Dataset, lines: xarray.Dataset) -> None:
+    """Draw exponents (a) and stiffnesses at one force (b) of both cuts and of lines beside the thesis' law."""
     left, right = drawing.panels(figure, 1, 2)
-    found = e1_laws(surfaces)
-    samples, hurst = found.attrs["samples"], found["hurst"].to_numpy()
+    cuts = by_cut(ensemble)
+    samples, hurst = ensemble.sizes["sample"], ensemble["hurst"].to_numpy()
     force, stiffness, batches = curves(lines.isel(points=-1))
-    mean = resampled(stiffness)
-    inside = between(force, found["lowest"], HIGHEST)
-    alpha, zeta = law(force, mean, inside)
-    level = zeta * MIDDLE**alpha
-    for axes, of_surfaces, of_lines in ((left, found["alpha_mean"], alpha), (right, found["k_mean"], level)):
-        style = {"color": drawing.LINES, "marker": ".", "markersize": 3, "linewidth": 1.0, "zorder": 3}
-        axes.errorbar(hurst, value(of_lines), 2 * error(of_lines, batches), label="rough lines", **style)
-        style = {
-            "color": drawing.SURFACES,
-            "fmt": "x",
-            "markersize": 5,
-            "elinewidth": 0.9,
-            "capsize": 2,
-            "zorder": 4,
-        }
-        words = f"{samples} rough squares, {int(surfaces['points'])}² cells"
-        axes.errorbar(hurst, value(of_surfaces), 2 * error(of_surfaces, samples), label=words, **style)
+    lowest = ensemble["dimensionless_force"].where(cuts["period"]["inside"]).min("load")
+    alpha, zeta = law(force, resampled(stiffness), between(force, lowest, HIGHEST))
+    found = {
+        "rough lines": (alpha, zeta * MIDDLE**alpha, batches),
+        "squares cut at random": (*laws_of(cuts["period"]), samples),
+        "squares, interior": (*laws_of(cuts["interior"]), samples),
+    }
+    marks = (("0.6", "."), (drawing.LINES, "s"), (drawing.SURFACES, "x"))
+    for (words, (*both, count)), (colour, mark) in zip(found.items(), marks, strict=True):
+        for axes, one in zip((left, right), both, strict=True):
+            style = {"color": colour, "marker": mark, "markersize": 4, "linewidth": 0.8, "capsize": 2}
+            bars = 2 * error(one, count)
+            axes.errorbar(hurst, value(one), bars, label=words, markerfacecolor="none", **style)
     drawing.exponent_laws(left, hurst)
     x = np.linspace(hurst[0], 2, 200)
-    right.plot(
-        x, 1.7 / (x + 1) * MIDDLE ** (1 / (x + 1)), color=drawing.LAW, label="1.7/(H + 1) $F^{1/(H+1)}$"
-    )
+    level = 1.7 / (x + 1) * MIDDLE ** (1 / (x + 1))
+    right.plot(x, level, color=drawing.LAW, label="1.7/(H + 1) $F^{1/(H+1)}$")
     drawing.hurst_axes(left, hurst, drawing.EXPONENT)
     drawing.hurst_axes(right, hurst, rf"mean {drawing.STIFFNESS} at $F/(E^*hL)$ = {MIDDLE:g}")
+    for axes in (left, right):
+        axes.legend(loc="best")
+
+
+def cut(figure: Figure, ensemble: xarray.Dataset, border: xarray.Dataset) -> None:
+    """Draw s(x) of one crest with the crests of E8 (a), and the effect of a random cut beside its theory (b)."""
+    left, right = drawing.panels(figure, 1, 2)
+    x = np.linspace(0, 1.6, 200)
+    for name, colour in (("period", drawing.SURFACES), ("patch", drawing.LINES)):
+        left.plot(x, stiffness_ratio(x, name), color=colour, label=f"smooth crest, {name}")
+    for h, mark in zip(CRESTS, "ov^", strict=True):
+        rows = at_border(ensemble, border, h)
+        style = {"fmt": mark, "color": "0.3", "markersize": 4, "markerfacecolor": "none", "elinewidth": 0.8}
+        left.errorbar(*rows, label=f"E8, H = {h:g}", **style)
+    left.axhline(1, color="0.5", linewidth=0.7)
+    drawing.label(left, "distance to the border over a", "k over that in the middle")
+    left.set_xlim(-0.05, 1.6)
+    found = effects(ensemble)
+    shown = [float(h) for h in found["hurst"] if float(h) in EFFECTS]
+    for h, mark in zip(shown, "xo^sv", strict=False):
+        one = found.sel(hurst=h)
+        right.errorbar(
+            one["width"], 100 * one["effect"], 200 * one["spread"], fmt=mark, markersize=4, elinewidth=0.8,
+            markerfacecolor="none", label=f"H = {h:g}",
+        )  # fmt: skip
+    width = np.linspace(0, 0.45, 2)
+    right.plot(width, 100 * width * integrals()["period"], color=drawing.LAW, label="theory of one crest")
+    drawing.label(right, "4 a/L", "a random cut adds to k, %")
     for axes in (left, right):
         axes.legend(loc="best")
 

@@ -35,7 +35,6 @@ MIDDLE = 0.02  # force at which laws are compared: there the errors of exponent 
 DECADES = ((7e-5, 7e-4), (7e-4, 7e-3), (7e-3, 7e-2))
 ALL = None  # no cut-off: all waves of the grid
 Array = NDArray[np.float64]
-POWERS = np.linspace(0.1, 4.0, 79)  # among which w is sought
 Table = tuple[Sequence[str], list[list[str]]]
 
 
@@ -246,27 +245,8 @@ LIMITS = {
 }
 
 
-def power_limits(n: Array, k: Array) -> Array:
-    """Return A and w of k = A + B n^-w of every line by least squares, shape (lines, 2), w one of `POWERS`.
-
-    Of fewer than three grids NaN.
-    """
-    there = np.isfinite(k).all(axis=0)
-    if there.sum() < 3:
-        return np.full((len(k), 2), np.nan)
-    n, y = n[there], k[:, there].T
-    limits, misfits = [], []
-    for w in POWERS:
-        columns = np.stack([np.ones(len(n)), (n / n[0]) ** -w], axis=1)
-        found, *_ = np.linalg.lstsq(columns, y, rcond=None)
-        limits.append(found[0])
-        misfits.append(((columns @ found - y) ** 2).sum(axis=0))
-    best = np.argmin(misfits, axis=0)
-    return np.stack([np.array(limits)[best, np.arange(len(k))], POWERS[best]], axis=1)
-
-
 def e2(folder: Path = FOLDER) -> dict[str, Table]:
-    """Return what grids do to the stiffness of one set of surfaces, in both limits, to the rule and to exponents."""
+    """Return what grids do to the stiffness of one set of surfaces, to the rule of twenty cells and to exponents."""
     ensembles = on_grids(folder)
     tables = {}
     for name, (_, wanted) in LIMITS.items():
@@ -288,8 +268,7 @@ def surfaces(same: dict[int, xarray.Dataset]) -> int:
 
 
 def convergence(same: dict[int, xarray.Dataset]) -> Table:
-    """Return stiffnesses at three forces over that of the finest grid, the exponent w and the limit."""
-    n = np.array(list(same), float)
+    """Return stiffnesses at three forces over that of the finest grid."""
     finest = max(same)
     first = same[finest]
     force, _, samples = curves(first)
@@ -303,20 +282,14 @@ def convergence(same: dict[int, xarray.Dataset]) -> Table:
             kept = {p: one.where(float(value(one)) > 5 * cell[p]) for p, one in k.items()}
             if sum(np.isfinite(float(value(one))) for one in kept.values()) < 3:
                 continue
-            table = np.stack([one.to_numpy() for one in kept.values()], axis=1)
-            limits = power_limits(n, table / table[:, -1:])
-            spread = np.nanstd(limits[1:], axis=0, ddof=1) * (samples / max(samples - 1, 1)) ** 0.5
             ratio = [
                 each_percent((kept[p] / kept[finest] - 1).expand_dims("one", 1), samples)[0]
                 for p in k
                 if p != finest
             ]
-            fit = [percent(limits[0, 0] - 1, spread[0]), told(limits[0, 1], spread[1], 1)]
-            # Where grids differ by no more than their errors the fit means nothing.
-            meant = spread[1] < limits[0, 1] / 3 and POWERS[0] < limits[0, 1] < POWERS[-1]
-            body.append([f"{h:g}", f"{at:g}", *ratio, *(fit if meant else ["-", "-"])])
+            body.append([f"{h:g}", f"{at:g}", *ratio])
     others = [f"{p}²" for p in same if p != finest]
-    return ["H", "F/(E* h L)", *others, "limit", "w"], body
+    return ["H", "F/(E* h L)", *others], body
 
 
 def rule(same: dict[int, xarray.Dataset]) -> Table:

@@ -136,19 +136,13 @@ def test_another_solver_finds_the_stiffness_of_a_member(script, name):
     assert float(difference.removeprefix("below ")) <= 1e-8
 
 
-def test_a_power_law_and_the_limit_of_fine_grids_are_found(script):
+def test_a_power_law_is_found(script):
     from law_ensembles import law
-    from law_tables import power_limits
 
     force = xarray.DataArray(np.geomspace(1e-3, 0.07, 6), dims="load")
     alpha, zeta = law(force, 1.2 * force**0.6, force > 0)
     assert float(alpha) == pytest.approx(0.6, rel=1e-12)
     assert float(zeta) == pytest.approx(1.2, rel=1e-12)
-    n = np.array([128.0, 256.0, 512.0, 1024.0])
-    # w = 1 is not among the powers, which are 0.05 apart: the next one is 0.025 away at most.
-    limit, power = power_limits(n, (0.3 + 5 / n)[np.newaxis])[0]
-    assert power == pytest.approx(1, abs=0.025)
-    assert limit == pytest.approx(0.3, abs=5 / 1024 * np.log(8) * 0.025)
 
 
 def test_samples_drawn_again_scatter_as_the_mean_of_them(script):
@@ -189,23 +183,97 @@ def test_whole_samples_are_kept_and_grids_of_one_surface_are_found(script, tmp_p
 
 def test_the_library_has_the_law_of_the_ensembles(script):
     """Its table is that of the file, to the last digit, and so are exponents, prefactors and their errors."""
+    from law_crest import by_cut, laws_of, table
     from law_ensembles import error, read, value
-    from law_formula import table
-    from law_tables import e1_laws
+    from law_formula import LIBRARY, module
 
     from roughcontact.theory.stiffness_laws import rough_square
+    from roughcontact.theory.stiffness_laws.rough_square_table import TABLES
 
-    ensemble = read("e1-surfaces")
-    laws = e1_laws(ensemble)
-    samples = laws.attrs["samples"]
-    assert [tuple(map(float, row)) for row in table(laws)] == list(rough_square._TABLE)
-    hurst = laws["hurst"].to_numpy()
-    for computed, one, spread in (
-        (laws["alpha_mean"], rough_square.exponent(hurst), rough_square.exponent_error(hurst)),
-        (laws["zeta_mean"], rough_square.prefactor(hurst), rough_square.prefactor_error(hurst)),
-    ):
-        # The digits of the table: a fiftieth of the errors.
-        np.testing.assert_array_less(abs(value(computed) - one), error(computed, samples) / 50)
-        # Linear: an error of 4 % has squares of 0.2 %, and two digits of a correlation are 2 % of an error.
-        np.testing.assert_allclose(spread, error(computed, samples), rtol=0.03)
-    assert f"{rough_square.LEAST_STIFFNESS:g}" == f"{20 * float(ensemble['cell_stiffness'][0]):.2g}"
+    ensemble = read("e8-cut")
+    samples = ensemble.sizes["sample"]
+    assert {cut: tuple(rows) for cut, rows in table(ensemble).items()} == TABLES
+    assert module(ensemble) == LIBRARY.read_text(encoding="utf-8")
+    hurst = ensemble["hurst"].to_numpy()
+    for cut, one in by_cut(ensemble).items():
+        alpha, level = laws_of(one)
+        zeta = level * 0.02**-alpha
+        for computed, ours, spread in (
+            (alpha, rough_square.exponent(hurst, cut=cut), rough_square.exponent_error(hurst, cut=cut)),
+            (zeta, rough_square.prefactor(hurst, cut=cut), rough_square.prefactor_error(hurst, cut=cut)),
+        ):
+            # The digits of the table: a fiftieth of the errors.
+            np.testing.assert_array_less(abs(value(computed) - ours), error(computed, samples) / 50)
+            # Linear: an error of 4 % has squares of 0.2 %, and two digits of a correlation are 2 % of an error.
+            np.testing.assert_allclose(spread, error(computed, samples), rtol=0.03)
+    assert f"{rough_square.LEAST_STIFFNESS:g}" == f"{20 * float(np.ravel(ensemble['cell_stiffness'])[0]):.2g}"
+
+
+def made_cuts(samples=60):
+    """Return an ensemble as E8, of two Hurst exponents: power laws, of which that of the period is 10 % stiffer."""
+    rng = np.random.default_rng(1)
+    force = np.geomspace(7e-5, 0.07, 16)
+    alpha = np.array([0.4, 0.5])
+    scatter = 1 + 0.1 * rng.normal(size=(1, 2, samples, 1))
+    k = 0.5 * (force / 0.02) ** alpha[:, None, None] * scatter * np.array([1.1, 1.0])[:, None, None, None]
+    share = np.broadcast_to(np.where(force > 0.01, 0.06, 0.01), k.shape)
+    dims = ("row", "hurst", "sample", "load")
+    return xarray.Dataset(
+        {
+            "dimensionless_stiffness": (dims, k),
+            "border_share": (dims, share * np.array([3.0, 1.0])[:, None, None, None]),
+            "dimensionless_force": ("load", force),
+            "cell_stiffness": (("row", "hurst"), np.full((2, 2), 1e-3)),
+        },
+        coords={"hurst": [1.0, 1.5], "sample": np.arange(samples)},
+        attrs={"study": "", "hours": 0.0, "failed": 0},
+    )
+
+
+def test_interior_loads_end_where_a_twentieth_of_the_force_is_at_the_border(script):
+    from law_crest import by_cut, laws_of, misfit, table
+    from law_cut import integrals
+    from law_ensembles import value
+
+    made = made_cuts()
+    cuts = by_cut(made)
+    force = made["dimensionless_force"]
+    seen = {cut: force.where(one["inside"]).max("load").to_numpy() for cut, one in cuts.items()}
+    assert (seen["interior"] < 0.01).all()
+    assert (seen["period"] == force[-1].item()).all()
+    assert (seen["patch"] == force[-1].item()).all()
+    for one in cuts.values():
+        alpha, _ = laws_of(one)
+        np.testing.assert_allclose(value(alpha), [0.4, 0.5], rtol=1e-12)
+        np.testing.assert_allclose(misfit(one), 0, atol=1e-12)
+    # The patch has the period's effect, + 10 %, times the ratio of both effects for one crest, which is negative.
+    ratio = integrals()["patch"] / integrals()["period"]
+    assert -1 < ratio < 0
+    levels = {cut: value(laws_of(one)[1]) for cut, one in cuts.items()}
+    np.testing.assert_allclose(levels["patch"] / levels["interior"], 1 + 0.1 * ratio, rtol=1e-9)
+    np.testing.assert_allclose(levels["period"] / levels["interior"], 1.1, rtol=1e-12)
+    rows = table(made)
+    # Half of the effect of the border that was not computed is an error.
+    assert [row[7] for row in rows["patch"]] == pytest.approx([0.05 * abs(ratio)] * 2, abs=1e-4)
+    assert [row[7] for row in rows["interior"]] == [0, 0]
+
+
+def test_the_tables_of_the_cut(script, tmp_path):
+    from law_crest import e8
+    from law_cut import integrals
+
+    made = made_cuts()
+    assert e8(tmp_path) == {}
+    write_netcdf(made, tmp_path / "e8-cut.nc", {})
+    tables = e8(tmp_path)
+    assert [line[3] for line in tables["e8"][1]] == ["0.400 ± 0.000", "0.500 ± 0.000"]
+    assert [line[4] for line in tables["e8"][1]] == ["-20.0 ± 0.0 %", "+25.0 ± 0.0 %"]
+    assert [line[5] for line in tables["e8"][1]] == ["+0.0 ± 0.0 %"] * 2
+    head, body = tables["e8-cut"]
+    assert head[-2:] == ["at 0.07", "theory at 0.07"]
+    assert body[0][-2] == "+10.0 ± 0.0 %"
+    k = 0.5 * 3.5**0.4
+    assert float(body[0][-1].split()[0]) == pytest.approx(200 * k * integrals()["period"], rel=0.05)
+    shares = {tuple(line[:2]): line[-1] for line in tables["e8-share"][1]}
+    assert shares["1", "interior"] == "6.0 %"
+    assert shares["1", "period"] == "18.0 %"

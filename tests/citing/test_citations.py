@@ -210,7 +210,7 @@ def test_theories_by_their_law_and_in_a_job_are_the_same():
         of_law = keys(law)
         assert of_law <= of_job, name
         assert of_job - of_law <= METHOD | {"Love1929", "Westergaard1939", "Almqvist2007"}, name
-        assert name == "rough-square" or of_law > {"roughcontact"}, name
+        assert name.startswith("rough-square") or of_law > {"roughcontact"}, name
     assert keys(CURVE.compare(rc.theory.hertz.law(1e-4, 1e9))) == METHOD | {"Hertz1882"}
 
 

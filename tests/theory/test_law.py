@@ -44,7 +44,7 @@ LAWS = {
     "cgp": interaction.law(MOMENTS, 1e11, 1e-6),
     "finite-body": interaction.finite_body(persson.law(SPECTRUM, 1e11, 1e-6), 1e11, 1e-6),
     "power-law": pohrt_popov.law(0.8, 1e-6, 1e-3, 1e11),
-    "rough-square": rough_square.law(0.8, 1e-9, 1e-3, 1e8),
+    "rough-square": rough_square.law(0.8, 1e-9, 1e-3, 1e8, cut="interior"),
     "hertz": HERTZ,
     "indenter": power_law_indenter.law(1.5, 0.3, 1e11),
     "rough-sphere": rough_sphere.law(0.5, 0.8, 1e-6, 1e-3, 1e11),

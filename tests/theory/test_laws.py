@@ -41,7 +41,10 @@ DIRECT = {
     "persson-plastic": persson_plastic.law(SPECTRUM, 2e9, MODULUS, AREA),
     "pullen-williamson": pullen_williamson.law(2e9, AREA),
     "power-law": pohrt_popov.law(0.8, 1e-6, LENGTH, MODULUS),
-    "rough-square": rough_square.law(0.8, 1e-6, LENGTH, MODULUS),
+    **{
+        f"rough-square-{cut}": rough_square.law(0.8, 1e-6, LENGTH, MODULUS, cut=cut)
+        for cut in ("interior", "period", "patch")
+    },
     "hertz": hertz.law(0.5, MODULUS),
     "rough-sphere": rough_sphere.law(0.5, 0.8, 1e-6, LENGTH, MODULUS),
 }

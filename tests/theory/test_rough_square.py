@@ -1,70 +1,162 @@
-"""The law of rough squares as computed: its window, its errors, and what it is for shapes of arguments."""
+"""The law of rough squares as computed: its window, its cuts, its errors, and what it is for shapes of arguments."""
 
 import numpy as np
 import pytest
 
+import roughcontact as rc
 from roughcontact.theory.stiffness_laws import pohrt_popov, rough_square
+from roughcontact.theory.stiffness_laws.rough_square_table import COLUMNS, TABLES
 
 STEEL = {"rms": 2e-6, "length": 1e-3, "modulus": 110e9}
-HURST = np.array([0.1, 0.25, 0.7, 1.0, 1.6, 2.95])
+HURST = np.array([0.25, 0.7, 1.0, 1.6, 2.95])
+CUTS = ("interior", "period", "patch")
+every_cut = pytest.mark.parametrize("cut", CUTS)
 
 
-def test_exponent_prefactor_and_stiffness_are_one_law():
-    alpha, zeta = rough_square.exponent(HURST), rough_square.prefactor(HURST)
-    for f in (0.02, 0.05):
-        k = rough_square.stiffness(f, HURST, 1.0, 1.0, 1.0)
+def rows(cut):
+    return [dict(zip(COLUMNS, row, strict=True)) for row in TABLES[cut]]
+
+
+@every_cut
+def test_exponent_prefactor_and_stiffness_are_one_law(cut):
+    alpha, zeta = rough_square.exponent(HURST, cut=cut), rough_square.prefactor(HURST, cut=cut)
+    for f in (0.015, 0.02):
+        k = rough_square.stiffness(f, HURST, 1.0, 1.0, 1.0, cut=cut)
         np.testing.assert_allclose(k, zeta * f**alpha, rtol=1e-14)
-    scaled = rough_square.stiffness(0.02 * 220, HURST, **STEEL)
-    np.testing.assert_allclose(scaled, 110e6 * rough_square.stiffness(0.02, HURST, 1.0, 1.0, 1.0), rtol=1e-14)
+    scaled = rough_square.stiffness(0.02 * 220, HURST, **STEEL, cut=cut)
+    plain = rough_square.stiffness(0.02, HURST, 1.0, 1.0, 1.0, cut=cut)
+    np.testing.assert_allclose(scaled, 110e6 * plain, rtol=1e-14)
 
 
-def test_errors_of_the_stiffness_follow_from_those_of_exponent_and_level():
+@every_cut
+def test_errors_follow_from_those_of_exponent_and_level_and_from_the_misfit(cut):
     """Drawn with their errors and correlation, ln k scatters as is said, to four errors of a scatter, 1/sqrt(2 n)."""
     rng = np.random.default_rng(3)
-    for h, _, of_alpha, _, of_level, correlation in rough_square._TABLE:
-        covariance = correlation * of_alpha * of_level
+    for row in rows(cut):
+        h, of_alpha, of_level = row["hurst"], row["exponent_error"], row["level_error"]
+        covariance = row["correlation"] * of_alpha * of_level
         pairs = rng.multivariate_normal(
             (0, 0), [[of_alpha**2, covariance], [covariance, of_level**2]], size=1000
         )
-        for force in (0.02, 0.07):
+        for force in (row["highest"] / 1.2, row["highest"]):
             scatter = (pairs[:, 0] * np.log(force / 0.02) + pairs[:, 1]).std()
-            said = rough_square.relative_error(force, h, 1.0, 1.0, 1.0)
-            assert said == pytest.approx(scatter, rel=4 / 2000**0.5)
+            error = rough_square.relative_error(force, h, 1.0, 1.0, 1.0, cut=cut)
+            assert error >= row["misfit"]
+            assert np.sqrt(error**2 - row["misfit"] ** 2) == pytest.approx(scatter, rel=4 / 2000**0.5)
         zeta = (pairs[:, 1] - pairs[:, 0] * np.log(0.02)).std()
-        said = rough_square.prefactor_error(h) / rough_square.prefactor(h)
-        assert said == pytest.approx(zeta, rel=4 / 2000**0.5)
-        assert rough_square.exponent_error(h) == of_alpha
+        error = rough_square.prefactor_error(h, cut=cut) / rough_square.prefactor(h, cut=cut)
+        assert error == pytest.approx(zeta, rel=4 / 2000**0.5)
+        assert rough_square.exponent_error(h, cut=cut) == of_alpha
 
 
-def test_between_the_hurst_exponents_of_the_ensembles_it_goes_one_way():
+@every_cut
+def test_between_the_hurst_exponents_of_the_ensembles_it_goes_one_way(cut):
     dense = np.linspace(*rough_square.HURST_LIMITS, 400)
-    assert (np.diff(rough_square.exponent(dense)) < 0).all()
-    assert (np.diff(rough_square.stiffness(0.02, dense, 1.0, 1.0, 1.0)) > 0).all()
+    assert (np.diff(rough_square.exponent(dense, cut=cut)) < 0).all()
+    assert (np.diff(rough_square.stiffness(0.015, dense, 1.0, 1.0, 1.0, cut=cut)) > 0).all()
 
 
-def test_shapes_follow_numpy():
-    f = np.array([[0.02], [0.04]])
+def test_a_random_cut_is_stiffer_and_a_patch_softer_than_the_interior():
+    """A smooth crest beside its other part is stiffer than alone in the middle, and softer without it."""
+    interior, period, patch = (rough_square.stiffness(0.015, HURST, 1.0, 1.0, 1.0, cut=cut) for cut in CUTS)
+    assert (period > interior).all()
+    assert (patch < interior).all()
+    assert (interior - patch < period - interior).all()
+
+
+@every_cut
+def test_the_range_of_single_surfaces_is_that_of_the_table_at_the_ends_of_the_window(cut):
+    for row in rows(cut):
+        given = (row["hurst"], 1.0, 1.0, 1.0)
+        law = rough_square.law(*given, cut=cut)
+        for force, end in zip(law.domain, ("first", "last"), strict=True):
+            low, high = rough_square.single_range(force, *given, cut=cut)
+            mean = rough_square.stiffness(force, *given, cut=cut)
+            assert low / mean == pytest.approx(row[f"low_{end}"], rel=1e-9)
+            assert high / mean == pytest.approx(row[f"high_{end}"], rel=1e-9)
+            assert low < mean < high
+
+
+def test_the_range_of_single_surfaces_holds_for_one_that_is_computed():
+    """Nine in ten lie inside; of these three, with phases that the ensemble does not hold, all do."""
+    grid = rc.Grid((64, 64), 1 / 64)
+    for seed in range(3):
+        drawn = rc.self_affine(rc.Grid((64, 64), 1 / 64, periodic=True), hurst=1.6, rms=0.01, rng=seed)
+        row, column = np.unravel_index(drawn.heights.argmax(), drawn.heights.shape)
+        surface = rc.Surface(np.roll(drawn.heights, (32 - row, 32 - column), (0, 1)), grid)
+        k = rc.press(surface, 1.0, force=0.02 * 0.01).stiffness
+        low, high = rough_square.single_range(0.02 * 0.01, 1.6, 0.01, 1.0, 1.0, cut="interior")
+        assert low < k < high
+
+
+@every_cut
+def test_shapes_follow_numpy(cut):
+    f = np.array([[0.015], [0.02]])
     for function in (rough_square.stiffness, rough_square.relative_error):
-        assert function(f, np.array([0.7, 1.0, 1.3]), 1.0, 1.0, 1.0).shape == (2, 3)
-        assert np.ndim(function(0.02, 0.7, 1.0, 1.0, 1.0)) == 0
-    assert np.ndim(rough_square.exponent(0.7)) == 0
+        assert function(f, np.array([0.7, 1.0, 1.3]), 1.0, 1.0, 1.0, cut=cut).shape == (2, 3)
+        assert np.ndim(function(0.02, 0.7, 1.0, 1.0, 1.0, cut=cut)) == 0
+    assert np.ndim(rough_square.exponent(0.7, cut=cut)) == 0
 
 
-def test_it_ends_where_its_ensembles_do():
-    surface = (0.7, *STEEL.values())
-    law = rough_square.law(*surface)
+@every_cut
+@pytest.mark.parametrize("hurst", [0.25, 0.7])
+def test_it_ends_where_its_ensembles_do(cut, hurst):
+    surface = (hurst, *STEEL.values())
+    law = rough_square.law(*surface, cut=cut)
     low, high = law.domain
     scale = 110e9 * 1e-3
-    assert rough_square.stiffness(low, *surface) == pytest.approx(
+    assert rough_square.stiffness(low, *surface, cut=cut) == pytest.approx(
         rough_square.LEAST_STIFFNESS * scale, rel=1e-12
     )
-    assert high == pytest.approx(pohrt_popov.FORCE_LIMIT * scale * 2e-6, rel=1e-15)
+    [highest] = [row["highest"] for row in rows(cut) if row["hurst"] == hurst]
+    assert high == pytest.approx(highest * scale * 2e-6, rel=1e-12)
+    assert (highest == pohrt_popov.FORCE_LIMIT) == (cut != "interior" or hurst > 0.5)
     for outside in (low * (1 - 1e-6), high * (1 + 1e-6)):
         assert np.isnan(law.predict("stiffness", outside))
         with pytest.raises(ValueError, match="compute the surface, or use pohrt_popov"):
-            rough_square.stiffness(outside, *surface)
+            rough_square.stiffness(outside, *surface, cut=cut)
     forces = np.geomspace(low, high, 5)
-    np.testing.assert_array_equal(law.predict("stiffness", forces), rough_square.stiffness(forces, *surface))
+    np.testing.assert_array_equal(
+        law.predict("stiffness", forces), rough_square.stiffness(forces, *surface, cut=cut)
+    )
+
+
+def test_a_hurst_exponent_outside_and_a_cut_that_does_not_exist_are_refused():
     for hurst in (0.05, 3.0):
         with pytest.raises(ValueError, match=r"hurst must lie from 0\.1 to 2\.95"):
-            rough_square.exponent(hurst)
+            rough_square.exponent(hurst, cut="interior")
+    with pytest.raises(ValueError, match="no cut 'middle'; there are interior, period, patch"):
+        rough_square.exponent(0.7, cut="middle")
+    with pytest.raises(TypeError, match="cut"):
+        rough_square.exponent(0.7)
+
+
+class TestMaps:
+    """The laws of a map: only for a free square whose longest waves have its side."""
+
+    def law(self, shape=(64, 64), periodic=False, spacing=1e-6, **more):
+        drawn = rc.self_affine(rc.Grid(shape, spacing, periodic=True), hurst=0.8, rms=1e-7, rng=1, **more)
+        return rc.Surface(drawn.heights, rc.Grid(shape, spacing, periodic=periodic))
+
+    def test_of_a_square(self):
+        surface = self.law()
+        [law] = rc.loading_laws(surface, 1e11, "rough-square-period", hurst=0.8)
+        direct = rough_square.law(0.8, surface.rms, 64e-6, 1e11, cut="period")
+        assert law.domain == pytest.approx(direct.domain, rel=1e-12)
+
+    @pytest.mark.parametrize(
+        ("surface", "message"),
+        [
+            ({"shape": (64, 80)}, "this map is 80 µm by 64 µm: crop it to a square"),
+            ({"periodic": True}, "this map is periodic: use persson"),
+            ({"shape": (128, 128), "rolloff": 16e-6}, r"has a roll-off at 1\d\.\d µm, with a side of 128 µm"),
+        ],
+    )
+    def test_of_other_maps(self, surface, message):
+        with pytest.raises(ValueError, match=message):
+            rc.loading_laws(self.law(**surface), 1e11, "rough-square-interior")
+
+    def test_a_given_rolloff(self):
+        with pytest.raises(ValueError, match="has a roll-off at 20"):
+            rc.loading_laws(self.law(), 1e11, "rough-square-interior", rolloff=20e-6)
+        assert rc.loading_laws(self.law(), 1e11, "rough-square-interior", rolloff=64e-6)

@@ -14,6 +14,7 @@ from roughcontact.contact.solution import Solution
 from roughcontact.errors import InputError
 from roughcontact.grid import Grid
 from roughcontact.halfspace.operators.build import half_space
+from roughcontact.labels.engineering_units import written
 from roughcontact.materials import Modulus, as_modulus
 from roughcontact.surface.analysis.hurst import hurst_exponent
 from roughcontact.surface.analysis.spectra import power_spectrum
@@ -27,6 +28,8 @@ from roughcontact.theory.random_surfaces.waves import Waves
 from roughcontact.validation import Array, numeric
 
 __all__ = ["inputs_for", "loading_laws", "persson_pressures"]
+
+SQUARE = 0.02  # relative difference of two sides of a square
 
 
 @numeric(modulus="Pa")
@@ -85,6 +88,8 @@ def loading_laws(
     value = as_modulus(modulus)
     if "cgp" in wanted and all(surface.grid.periodic):
         raise InputError("cgp is for a body that is indented as a whole, unlike a periodic surface", "use gw")
+    if any(name.startswith("rough-square") for name in wanted):
+        _require_rough_square(surface, given.get("rolloff"))
     known = {"modulus": value, "area": surface.grid.area} | inputs_for(surface, wanted, **given)
     found = _on_their_body([laws.named(name, **known) for name in wanted], surface.grid, value)
     scope = Scope(value, surface.grid.area, surface.rms, known.get("spectrum"))
@@ -107,6 +112,31 @@ def inputs_for(surface: Surface, names: Sequence[str], **given: Unpack[laws.Give
     if "rolloff" in needs:
         found["rolloff"] = math.sqrt(surface.grid.area)
     return found
+
+
+def _require_rough_square(surface: Surface, rolloff: float | None) -> None:
+    """Raise an error for a map that is not a free square with longest waves of its side.
+
+    The fit finds roll-offs up to about an eighth of the side.
+    """
+    grid = surface.grid
+    if any(grid.periodic):
+        raise InputError(
+            "the rough-square laws are those of a free square, and this map is periodic", "use persson"
+        )
+    height, width = (count * each for count, each in zip(grid.shape, grid.spacing, strict=True))
+    if abs(height / width - 1) > SQUARE:
+        shown = f"{written(width, 'm')} by {written(height, 'm')}"
+        raise InputError(
+            f"the rough-square laws are those of a square, and this map is {shown}", "crop it to a square"
+        )
+    longest = hurst_exponent(_whole(surface)).rolloff if rolloff is None else rolloff
+    if longest is not None and longest < width * (1 - SQUARE):
+        raise InputError(
+            "the rough-square laws are those of surfaces that are self-affine up to their side, and this map has a "
+            f"roll-off at {written(longest, 'm')}, with a side of {written(width, 'm')}",
+            "use finite-size or persson",
+        )
 
 
 def persson_pressures(solution: Solution) -> Callable[[Array], Array]:

@@ -28,7 +28,8 @@ __all__ = [
 # Those of `theory.laws`, which imports NumPy: help and completion must be fast.
 THEORIES = (
     *("persson", "finite-size", "gw", "gw-exponential", "bgt", "cgp", "mikic", "cmy", "ceb", "kogut-etsion"),
-    *("persson-plastic", "pullen-williamson", "power-law", "rough-square", "hertz", "rough-sphere"),
+    *("persson-plastic", "pullen-williamson", "power-law", "rough-square-interior", "rough-square-period"),
+    *("rough-square-patch", "hertz", "rough-sphere"),
 )
 TABLES = ("csv", "abaqus", "abaqus-mm", "calculix", "calculix-mm", "lammps", "moose", "text")
 _LENGTH = Amount(LENGTH)

@@ -138,6 +138,11 @@ def _finite_size(
 
 _NOMINALLY_FLAT = ("moments", "modulus", "area")
 _WITH_HARDNESS = ("moments", "hardness", "modulus", "area")
+_CUTS: Mapping[rough_square.Cut, str] = {
+    "interior": "without contact at its border",
+    "period": "one period cut at random",
+    "patch": "cut out of a larger surface",
+}
 
 LAWS: Mapping[str, NamedLaw] = MappingProxyType(
     {
@@ -200,11 +205,14 @@ LAWS: Mapping[str, NamedLaw] = MappingProxyType(
             ("hurst", "rms", "length", "modulus"),
             pohrt_popov.law,
         ),
-        "rough-square": NamedLaw(
-            "free square, self-affine up to its own size (ensembles, with errors)",
-            ("hurst", "rms", "length", "modulus"),
-            rough_square.law,
-        ),
+        **{
+            f"rough-square-{cut}": NamedLaw(
+                f"free square, self-affine up to its own size, {words} (ensembles, with errors)",
+                ("hurst", "rms", "length", "modulus"),
+                partial(rough_square.law, cut=cut),
+            )
+            for cut, words in _CUTS.items()
+        },
         "hertz": NamedLaw("smooth sphere (Hertz)", ("radius", "modulus"), hertz.law),
         "rough-sphere": NamedLaw(
             "sphere with self-affine roughness (thesis, eq. 5.9)",

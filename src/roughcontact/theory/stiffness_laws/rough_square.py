@@ -3,65 +3,65 @@
 k/(E* L) = zeta (F/(E* h L))^alpha as in the thesis (`pohrt_popov`), but alpha and zeta are those of the mean
 stiffness of 800 free squares of 512 x 512 cells for each of twelve Hurst exponents (docs/evidence/law.md), and monotone
 interpolations between them. With kappa, k/(E* L) at F/(E* h L) = 0.02, zeta is kappa 0.02^-alpha.
+
+They depend on where the square is cut out of its surface (`Cut`), because a crest at the border is cut in two:
+
+``"interior"``
+    The highest crest lies in the middle, and at most 5 % of the force within a contact radius of the border: the law of
+    the surface itself.
+``"period"``
+    The square is one period of its surface, cut at random, as in the thesis: the other part of a crest at the border
+    lies at the opposite border, and both are stiffer than one.
+``"patch"``
+    The square is cut out of a larger surface at random, as a measured map: the other part is missing.
 """
 
 from __future__ import annotations
 
-from functools import partial
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache, partial
+from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
 from scipy.interpolate import PchipInterpolator
 
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.stiffness_laws.pohrt_popov import FORCE_LIMIT
+from roughcontact.theory.stiffness_laws.rough_square_table import COLUMNS, TABLES
 from roughcontact.validation import Array, number, numeric, positive, require
 
 __all__ = [
     "HURST_LIMITS",
     "LEAST_STIFFNESS",
+    "Cut",
     "exponent",
     "exponent_error",
     "law",
     "prefactor",
     "prefactor_error",
     "relative_error",
+    "single_range",
     "stiffness",
 ]
 
-# k/(E* L) of 20 of 512 x 512 cells, below which single cells dominate.
-LEAST_STIFFNESS = 0.035
+Cut = Literal["interior", "period", "patch"]
+
+LEAST_STIFFNESS = 0.035  # k/(E* L) of 20 of 512 x 512 cells, below which single cells dominate
 _REFERENCE = 0.02  # F/(E* h L) at which the errors of exponent and level are almost uncorrelated
 _ROUND = 1e-9  # tolerance of a force at an end of the window
-# H; alpha and its standard error; kappa and its standard error over it; the correlation of both errors.
-# `python reproduction/benchmarks/law_formula.py` prints it.
-_TABLE = (
-    (0.1, 0.75738, 0.00315, 0.068037, 0.00563, -0.62),
-    (0.25, 0.71424, 0.00328, 0.071091, 0.00632, -0.45),
-    (0.4, 0.67005, 0.00320, 0.077042, 0.00666, -0.25),
-    (0.55, 0.62318, 0.00343, 0.085063, 0.00715, -0.25),
-    (0.7, 0.58351, 0.00337, 0.093883, 0.00723, -0.08),
-    (0.85, 0.54904, 0.00332, 0.102928, 0.00733, 0.07),
-    (1, 0.51735, 0.00339, 0.111727, 0.00753, 0.06),
-    (1.3, 0.46580, 0.00316, 0.127646, 0.00768, 0.25),
-    (1.6, 0.42508, 0.00267, 0.140216, 0.00782, 0.37),
-    (1.9, 0.39827, 0.00214, 0.149075, 0.00785, 0.42),
-    (2.35, 0.37205, 0.00154, 0.156720, 0.00718, 0.33),
-    (2.95, 0.35929, 0.00112, 0.160740, 0.00618, 0.52),
-)
-_HURST, _ALPHAS, _ALPHA_ERRORS, _KAPPAS, _KAPPA_ERRORS, _CORRELATIONS = np.array(_TABLE).T
-_ERRORS = _ALPHA_ERRORS, _KAPPA_ERRORS, _CORRELATIONS
-_ALPHA, _KAPPA = PchipInterpolator(_HURST, _ALPHAS), PchipInterpolator(_HURST, _KAPPAS)
-HURST_LIMITS = (float(_HURST[0]), float(_HURST[-1]))
+HURST_LIMITS = (0.1, 2.95)
 
 
-def exponent(hurst: ArrayLike) -> Array:
+def exponent(hurst: ArrayLike, *, cut: Cut) -> Array:
     """Return the exponent alpha of rough squares [-].
 
     Parameters
     ----------
     hurst : float or array
         Hurst exponent H, from 0.1 to 2.95.
+    cut : {"interior", "period", "patch"}
+        Where the square is cut out of its surface, see `Cut`.
 
     Returns
     -------
@@ -71,26 +71,27 @@ def exponent(hurst: ArrayLike) -> Array:
     Raises
     ------
     ValueError
-        If H is out of range of the computed surfaces.
+        If H is out of range of the computed surfaces, or there is no such cut.
 
     Examples
     --------
     >>> from roughcontact.theory import pohrt_popov, rough_square
     >>> for hurst in (0.25, 0.7, 1.6):
-    ...     print(f"{rough_square.exponent(hurst):.2f} beside {pohrt_popov.exponent(hurst):.2f}")
-    0.71 beside 0.80
-    0.58 beside 0.59
-    0.43 beside 0.38
+    ...     print(
+    ...         f"{rough_square.exponent(hurst, cut='interior'):.2f}, {rough_square.exponent(hurst, cut='period'):.2f} "
+    ...         f"beside {pohrt_popov.exponent(hurst):.2f}"
+    ...     )
+    EXAMPLE1
     """
-    return _exponent(_hurst(hurst))
+    return _laws(cut).exponent(_hurst(hurst))
 
 
-def exponent_error(hurst: ArrayLike) -> Array:
+def exponent_error(hurst: ArrayLike, *, cut: Cut) -> Array:
     """Return the standard error of the `exponent` [-].
 
     Parameters
     ----------
-    hurst : float or array
+    hurst, cut
         See `exponent`.
 
     Returns
@@ -101,19 +102,19 @@ def exponent_error(hurst: ArrayLike) -> Array:
     Examples
     --------
     >>> from roughcontact.theory import rough_square
-    >>> print(f"{rough_square.exponent(0.7):.3f} +- {rough_square.exponent_error(0.7):.3f}")
-    0.584 +- 0.003
+    >>> alpha, error = (each(0.7, cut="interior") for each in (rough_square.exponent, rough_square.exponent_error))
+    >>> print(f"{alpha:.3f} +- {error:.3f}")
+    EXAMPLE2
     """
-    error: Array = np.interp(_hurst(hurst), _HURST, _ERRORS[0])
-    return error
+    return _laws(cut).at(_hurst(hurst), "exponent_error")
 
 
-def prefactor(hurst: ArrayLike) -> Array:
+def prefactor(hurst: ArrayLike, *, cut: Cut) -> Array:
     """Return the prefactor zeta of rough squares [-].
 
     Parameters
     ----------
-    hurst : float or array
+    hurst, cut
         See `exponent`.
 
     Returns
@@ -124,19 +125,20 @@ def prefactor(hurst: ArrayLike) -> Array:
     Examples
     --------
     >>> from roughcontact.theory import rough_square
-    >>> print(f"{rough_square.prefactor(0.7):.2f} +- {rough_square.prefactor_error(0.7):.2f}")
-    0.92 +- 0.01
+    >>> zeta, error = (each(0.7, cut="interior") for each in (rough_square.prefactor, rough_square.prefactor_error))
+    >>> print(f"{zeta:.2f} +- {error:.2f}")
+    EXAMPLE3
     """
-    zeta: Array = np.exp(_log_stiffness(1.0, _hurst(hurst)))
+    zeta: Array = np.exp(_laws(cut).log_stiffness(1.0, _hurst(hurst)))
     return zeta
 
 
-def prefactor_error(hurst: ArrayLike) -> Array:
+def prefactor_error(hurst: ArrayLike, *, cut: Cut) -> Array:
     """Return the standard error of the `prefactor` [-].
 
     Parameters
     ----------
-    hurst : float or array
+    hurst, cut
         See `exponent`.
 
     Returns
@@ -147,15 +149,15 @@ def prefactor_error(hurst: ArrayLike) -> Array:
     Examples
     --------
     >>> from roughcontact.theory import rough_square
-    >>> bool(rough_square.prefactor_error(0.7) > 0)
+    >>> bool(rough_square.prefactor_error(0.7, cut="period") > 0)
     True
     """
-    return prefactor(hurst) * _log_error(1.0, _hurst(hurst))
+    return prefactor(hurst, cut=cut) * _laws(cut).standard_error(1.0, _hurst(hurst))
 
 
 @numeric
 def stiffness(
-    force: ArrayLike, hurst: ArrayLike, rms: ArrayLike, length: ArrayLike, modulus: ArrayLike
+    force: ArrayLike, hurst: ArrayLike, rms: ArrayLike, length: ArrayLike, modulus: ArrayLike, *, cut: Cut
 ) -> Array:
     """Return the mean contact stiffness of rough squares [N/m].
 
@@ -171,73 +173,110 @@ def stiffness(
         Side L of the square surface [m]; also the longest wavelength.
     modulus : float or array
         Reduced modulus E* [Pa].
+    cut : {"interior", "period", "patch"}
+        Where the square is cut out of its surface, see `Cut`.
 
     Returns
     -------
     float or array
-        k [N/m], of many surfaces; for its error see `relative_error`.
+        k [N/m], the mean of many surfaces; for its error see `relative_error`, for single ones `single_range`.
 
     Raises
     ------
     ValueError
-        If H is out of range, or the force outside the window of the ensembles: from the force at which k is 0.035 E*
-        L, the stiffness of 20 of their cells, to 0.07 E* h L.
+        If H is out of range, there is no such cut, or the force is outside the window of the ensembles: from the force
+        at which k is 0.035 E* L, the stiffness of 20 of their cells, to 0.07 E* h L. An interior contact ends at lower
+        forces if H is below about 0.5: above them more than 5 % of the force lies at the border.
 
     Notes
     -----
     The amplitudes of the waves are those of the spectrum, their phases are random, and the shortest waves have two
-    cells. Single surfaces scatter about the mean by up to a quarter. Curves of the mean stiffness are slightly bent:
-    docs/evidence/law.md lists their deviations from a power law. If any Hurst exponent is left out, interpolation
-    reproduces its values within one standard error.
+    cells. The square is self-affine up to its side: the law does not hold for maps with a roll-off. The patch is not
+    computed: its stiffness is that of the interior, with the effect of the border that is computed for the period,
+    times the ratio of both effects for a smooth crest (docs/evidence/law.md).
 
     Examples
     --------
     >>> from roughcontact.theory import pohrt_popov, rough_square
     >>> surface = {"hurst": 0.25, "rms": 1e-6, "length": 1e-3, "modulus": 1e11}
-    >>> k = rough_square.stiffness(2.0, **surface)  # F/(E* h L) = 0.02
+    >>> k = rough_square.stiffness(2.0, **surface, cut="period")  # F/(E* h L) = 0.02
     >>> off = k / pohrt_popov.stiffness(2.0, **surface) - 1
-    >>> print(f"{off:+.0%} +- {rough_square.relative_error(2.0, **surface):.0%}")
-    +20% +- 1%
+    >>> print(f"{off:+.0%} +- {rough_square.relative_error(2.0, **surface, cut='period'):.0%}")
+    EXAMPLE4
     """
-    f, h, scale = _given(force, hurst, rms, length, modulus)
-    k: Array = scale * np.exp(_log_stiffness(f, h))
+    f, h, scale = _given(force, hurst, rms, length, modulus, cut)
+    k: Array = scale * np.exp(_laws(cut).log_stiffness(f, h))
     return k
 
 
 @numeric
 def relative_error(
-    force: ArrayLike, hurst: ArrayLike, rms: ArrayLike, length: ArrayLike, modulus: ArrayLike
+    force: ArrayLike, hurst: ArrayLike, rms: ArrayLike, length: ArrayLike, modulus: ArrayLike, *, cut: Cut
 ) -> Array:
-    """Return the relative standard error of the mean `stiffness` [-].
+    """Return the relative error of the mean `stiffness` [-].
 
     Parameters
     ----------
-    force, hurst, rms, length, modulus : float or array
+    force, hurst, rms, length, modulus, cut
         See `stiffness`.
 
     Returns
     -------
     float or array
-        Relative standard error [-] of the mean, not the scatter of single surfaces.
+        Root of the sum of the squares of the standard error of the mean and the largest misfit of the power law in the
+        window; for a patch also of half of the effect of its border [-]. It is not the scatter of single surfaces.
 
     Examples
     --------
     >>> from roughcontact.theory import rough_square
     >>> surface = {"hurst": 0.7, "rms": 1e-6, "length": 1e-3, "modulus": 1e11}
-    >>> bool((rough_square.relative_error([1.0, 2.0, 7.0], **surface) < 0.03).all())
+    >>> bool((rough_square.relative_error([1.0, 2.0, 7.0], **surface, cut="interior") < 0.03).all())
     True
     """
-    f, h, _ = _given(force, hurst, rms, length, modulus)
-    return _log_error(f, h)
+    f, h, _ = _given(force, hurst, rms, length, modulus, cut)
+    laws = _laws(cut)
+    return np.hypot(laws.standard_error(f, h), laws.at(h, "misfit"))
 
 
 @numeric
-def law(hurst: float, rms: float, length: float, modulus: float) -> LoadingLaw:
+def single_range(
+    force: ArrayLike, hurst: ArrayLike, rms: ArrayLike, length: ArrayLike, modulus: ArrayLike, *, cut: Cut
+) -> tuple[Array, Array]:
+    """Return the range of the stiffness of a single rough square [N/m].
+
+    Parameters
+    ----------
+    force, hurst, rms, length, modulus, cut
+        See `stiffness`.
+
+    Returns
+    -------
+    tuple of two floats or arrays
+        The 5 % and the 95 % quantiles of the stiffness of single surfaces [N/m].
+
+    Examples
+    --------
+    >>> from roughcontact.theory import rough_square
+    >>> surface = {"hurst": 0.7, "rms": 1e-6, "length": 1e-3, "modulus": 1e11}
+    >>> low, high = rough_square.single_range(2.0, **surface, cut="interior")
+    >>> mean = rough_square.stiffness(2.0, **surface, cut="interior")
+    >>> f"{low / mean:.2f} to {high / mean:.2f} of the mean"
+    EXAMPLE5
+    """
+    f, h, scale = _given(force, hurst, rms, length, modulus, cut)
+    laws = _laws(cut)
+    mean = scale * np.exp(laws.log_stiffness(f, h))
+    low, high = laws.quantiles(f, h)
+    return mean * low, mean * high
+
+
+@numeric
+def law(hurst: float, rms: float, length: float, modulus: float, *, cut: Cut) -> LoadingLaw:
     """Return the mean stiffness of rough squares as a function of force.
 
     Parameters
     ----------
-    hurst, rms, length, modulus : float
+    hurst, rms, length, modulus, cut
         See `stiffness`.
 
     Returns
@@ -248,31 +287,95 @@ def law(hurst: float, rms: float, length: float, modulus: float) -> LoadingLaw:
     Examples
     --------
     >>> from roughcontact.theory import rough_square
-    >>> law = rough_square.law(0.8, 1e-6, 1e-3, 1e11)
+    >>> law = rough_square.law(0.8, 1e-6, 1e-3, 1e11, cut="interior")
     >>> law, [f"{end:.2g} N" for end in law.domain]
-    (LoadingLaw(Rough squares, computed: stiffness), ['0.31 N', '7 N'])
+    EXAMPLE6
     """
     surface = {"hurst": hurst, "rms": rms, "length": length, "modulus": modulus}
-    h = _hurst(hurst)
+    h, laws = _hurst(hurst), _laws(cut)
     scale = float(_scale(length, modulus) * positive(rms, "rms [m]"))
     return LoadingLaw(
-        "Rough squares, computed",
+        f"Rough squares, computed ({cut})",
         "docs/evidence/law.md",
-        {"stiffness": partial(stiffness, **surface)},
-        (scale * float(_lowest(h)), scale * FORCE_LIMIT),
+        {"stiffness": partial(stiffness, **surface, cut=cut)},
+        (scale * float(laws.lowest(h)), scale * float(laws.highest(h))),
     )
 
 
+@dataclass(frozen=True, slots=True, eq=False)
+class _Laws:
+    """The values of one cut at the computed Hurst exponents, by name, and between them."""
+
+    columns: Mapping[str, Array]
+
+    def at(self, hurst: Array, name: str) -> Array:
+        """Return a column at H, on straight lines between its values."""
+        found: Array = np.interp(hurst, self.columns["hurst"], self.columns[name])
+        return found
+
+    def exponent(self, hurst: Array) -> Array:
+        alpha: Array = self._smooth("exponent")(hurst)[()]
+        return alpha
+
+    def level(self, hurst: Array) -> Array:
+        """Return kappa, k/(E* L) at the reference force."""
+        kappa: Array = self._smooth("level")(hurst)[()]
+        return kappa
+
+    def lowest(self, hurst: Array) -> Array:
+        """Return the force F/(E* h L) at which k is the smallest resolved stiffness."""
+        found: Array = _REFERENCE * (LEAST_STIFFNESS / self.level(hurst)) ** (1 / self.exponent(hurst))
+        return found
+
+    def highest(self, hurst: Array) -> Array:
+        """Return the highest force F/(E* h L)."""
+        found: Array = np.exp(np.interp(hurst, self.columns["hurst"], np.log(self.columns["highest"])))
+        return found
+
+    def log_stiffness(self, force: ArrayLike, hurst: Array) -> Array:
+        """Return ln k/(E* L) at F/(E* h L)."""
+        k: Array = np.log(self.level(hurst)) + self.exponent(hurst) * np.log(np.asarray(force) / _REFERENCE)
+        return k
+
+    def standard_error(self, force: ArrayLike, hurst: Array) -> Array:
+        """Return the standard error of ln k at F/(E* h L)."""
+        names = ("exponent_error", "level_error", "correlation")
+        of_alpha, of_level, correlation = (self.at(hurst, each) for each in names)
+        by_alpha = np.log(np.asarray(force) / _REFERENCE) * of_alpha
+        error: Array = np.sqrt(of_level**2 + 2 * correlation * of_level * by_alpha + by_alpha**2)
+        return error
+
+    def quantiles(self, force: Array, hurst: Array) -> tuple[Array, Array]:
+        """Return the 5 and 95 % quantiles over the mean, on straight lines over ln F between the ends of the window."""
+        low, high = np.log(self.lowest(hurst)), np.log(self.highest(hurst))
+        part = (np.log(force) - low) / (high - low)
+        first, last = (
+            [self.at(hurst, f"{quantile}_{end}") for quantile in ("low", "high")] for end in ("first", "last")
+        )
+        ends = [a + (b - a) * part for a, b in zip(first, last, strict=True)]
+        return ends[0], ends[1]
+
+    def _smooth(self, name: str) -> PchipInterpolator:
+        return PchipInterpolator(self.columns["hurst"], self.columns[name])
+
+
+@cache
+def _laws(cut: Cut) -> _Laws:
+    require(cut in TABLES, f"there is no cut {cut!r}; there are {', '.join(TABLES)}", place="cut")
+    return _Laws(dict(zip(COLUMNS, np.array(TABLES[cut]).T, strict=True)))
+
+
 def _given(
-    force: ArrayLike, hurst: ArrayLike, rms: ArrayLike, length: ArrayLike, modulus: ArrayLike
+    force: ArrayLike, hurst: ArrayLike, rms: ArrayLike, length: ArrayLike, modulus: ArrayLike, cut: Cut
 ) -> tuple[Array, Array, Array]:
     """Return F/(E* h L), inside the window, H, and E* L [N/m]."""
-    h, scale = _hurst(hurst), _scale(length, modulus)
+    laws, h, scale = _laws(cut), _hurst(hurst), _scale(length, modulus)
     f = positive(force, "force [N]") / (scale * positive(rms, "rms [m]"))
+    low, high = laws.lowest(h), laws.highest(h)
     require(
-        (f >= _lowest(h) * (1 - _ROUND)) & (f <= FORCE_LIMIT * (1 + _ROUND)),
-        f"F/(E* h L) must lie between that at which k is {LEAST_STIFFNESS} E* L, 0.0074 at H = 0.25 and 0.0003 at "
-        f"H = 2.95, and {FORCE_LIMIT}: no surfaces were computed outside",
+        (f >= low * (1 - _ROUND)) & (f <= high * (1 + _ROUND)),
+        f"F/(E* h L) must lie between that at which k is {LEAST_STIFFNESS} E* L and the highest of the ensembles "
+        f"(here {np.max(low):.2g} and {np.min(high):.2g})",
         "compute the surface, or use pohrt_popov",
         value=f,
     )
@@ -293,34 +396,3 @@ def _hurst(hurst: ArrayLike) -> Array:
         place="hurst",
     )
     return h
-
-
-def _lowest(hurst: Array) -> Array:
-    """Return the force F/(E* h L) at which k is the smallest resolved stiffness."""
-    found: Array = _REFERENCE * (LEAST_STIFFNESS / _level(hurst)) ** (1 / _exponent(hurst))
-    return found
-
-
-def _exponent(hurst: Array) -> Array:
-    alpha: Array = _ALPHA(hurst)[()]
-    return alpha
-
-
-def _level(hurst: Array) -> Array:
-    """Return kappa, k/(E* L) at the reference force."""
-    kappa: Array = _KAPPA(hurst)[()]
-    return kappa
-
-
-def _log_error(force: ArrayLike, hurst: Array) -> Array:
-    """Return the standard error of ln k at F/(E* h L)."""
-    of_alpha, of_level, correlation = (np.interp(hurst, _HURST, each) for each in _ERRORS)
-    by_alpha = np.log(np.asarray(force) / _REFERENCE) * of_alpha
-    error: Array = np.sqrt(of_level**2 + 2 * correlation * of_level * by_alpha + by_alpha**2)
-    return error
-
-
-def _log_stiffness(force: ArrayLike, hurst: Array) -> Array:
-    """Return ln k/(E* L) at F/(E* h L)."""
-    k: Array = np.log(_level(hurst)) + _exponent(hurst) * np.log(np.asarray(force) / _REFERENCE)
-    return k
