@@ -24,6 +24,7 @@ QUESTIONS = {
     "read a .sur file": "how-to/files",
     "my curve is unresolved": "how-to/unresolved",
     "which cut-off": "gallery/questions/short_cutoff",
+    "crest at the border": "evidence/law-cut",
     "gpu": "how-to/devices",
     "jax": "how-to/autograd",
     "abaqus": "coming-from/abaqus",

@@ -5,6 +5,7 @@
     python reproduction/benchmarks/law.py --cost              # seconds of a processor a curve on every grid
     python reproduction/benchmarks/law_run.py NAME --out DIR  # runs studies in batches, and collects each batch
     python reproduction/benchmarks/law_check.py               # one member of each, by another solver
+    python reproduction/benchmarks/law_cut.py                 # a smooth crest that the border cuts
 
 The studies are those of examples/law: ``roughcontact study run examples/law/NAME.toml --out DIR/NAME``. They can be
 collected at any time, as far as they are. The stiffness of every surface lies in reproduction/data/law, from which the
@@ -35,7 +36,7 @@ from roughcontact.study.study import Study
 from roughcontact.study.task import generator
 
 DOCS = ROOT / "docs"
-PAGES = tuple(DOCS / "evidence" / f"{name}.md" for name in ("law", "law-ensembles", "law-grids"))
+PAGES = tuple(DOCS / "evidence" / f"{name}.md" for name in ("law", "law-ensembles", "law-grids", "law-cut"))
 DATA = DOCS / "data" / "law"
 PARTS = (result_tables, formula, e1, e2, e3, e4, e5, e6, e7, e8)
 _PLACE = re.compile(r"(<!-- table (\S+) -->\n).*?(<!-- end -->)", re.DOTALL)

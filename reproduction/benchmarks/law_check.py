@@ -1,8 +1,7 @@
 """One member of every ensemble of the law, on 64 cells a side, solved again by a program of its own.
 
-A plain conjugate-gradient iteration (I. A. Polonsky, L. M. Keer, Wear 231, 206 (1999)) on the products of
-`certificate.py`, and stiffnesses from full matrices; rough lines by bisection for the depth of their springs. Of
-roughcontact only the heights are used.
+The iteration of `law_peer.py` on the products of `certificate.py`, and stiffnesses from full matrices; rough lines by
+bisection for the depth of their springs. Of roughcontact only the heights are used.
 """
 
 from __future__ import annotations
@@ -12,6 +11,7 @@ from collections.abc import Iterable, Mapping
 from types import MappingProxyType
 from typing import Any
 
+import law_peer
 import numpy as np
 from law_ensembles import ROOT, STUDIES
 
@@ -30,8 +30,6 @@ from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array
 
 POINTS = 64
-TOLERANCE = 1e-12  # of the pressure, over its mean
-MOST = 20_000  # iterations
 # Which member: parameters beside the number of points.
 MEMBERS: Mapping[str, Mapping[str, Any]] = MappingProxyType(
     {
@@ -76,36 +74,6 @@ def pressed(parameters: CurveParameters, rng: np.random.Generator) -> Surface:
     y, x = np.mgrid[:n, :n] - (n - 1) / 2
     tilt = (patch * y).sum() / (y**2).sum() * y + (patch * x).sum() / (x**2).sum() * x
     return Surface(patch - patch.mean() - tilt, parameters.grid)
-
-
-def solved(judge: Judge, heights: Array, force: float, cell: float) -> Array:
-    """Return the pressure under a force, by Polonsky and Keer's iteration in its plain form."""
-    separation = heights.max() - heights
-    pressure = np.full(heights.shape, force / (heights.size * cell))
-    direction, last, conjugate = np.zeros(heights.shape), 1.0, 0.0
-    for _ in range(MOST):
-        gap = judge.displacement(pressure) + separation
-        contact = pressure > 0
-        gap -= gap[contact].mean()
-        square = float((gap[contact] ** 2).sum())
-        if square == 0 and not (gap < 0).any():
-            return pressure
-        direction = np.where(contact, gap + conjugate * square / last * direction, 0.0)
-        last = square or 1.0
-        image = judge.displacement(direction)
-        image -= image[contact].mean()
-        slope = float((image[contact] * direction[contact]).sum())
-        # A cell that is alone in contact has no direction.
-        step = float((gap[contact] * direction[contact]).sum()) / slope if slope else 1 / judge.own()
-        before = pressure
-        pressure = np.maximum(pressure - step * direction, 0.0)
-        overlap = (pressure == 0) & (gap < 0)
-        pressure = np.where(overlap, -step * gap, pressure)
-        conjugate = 0.0 if overlap.any() else 1.0
-        pressure *= force / (pressure.sum() * cell)
-        if np.abs(pressure - before).sum() < TOLERANCE * before.sum():
-            return pressure
-    raise SystemExit(f"not solved in {MOST} iterations")
 
 
 def stiffnesses(judge: Judge, contact: Array, cell: float) -> tuple[float, float]:
@@ -161,7 +129,7 @@ def check(names: Iterable[str] = tuple(MEMBERS)) -> list[list[str]]:
         judge = Judge(surface.grid.shape, surface.grid.spacing, parameters.periodic, parameters.modulus)
         worst = 0.0
         for load in (1, 2, 3):
-            found = solved(judge, surface.heights, float(record["force"][load]), cell)
+            found = law_peer.pressed(judge.displacement, surface.heights, float(record["force"][load]), cell)
             depth = (judge.displacement(found) + surface.heights.max() - surface.heights)[found > 0].mean()
             k, interfacial = stiffnesses(judge, found > 0, cell)
             mine = {"stiffness": k, "interfacial_stiffness": interfacial, "depth": float(depth)}
