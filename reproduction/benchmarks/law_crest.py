@@ -6,7 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import xarray
-from law_cut import integrals
+from law_cut import LARGER, PERIOD, mean_effect
 from law_ensembles import FOLDER, Values, error, law, read, resampled, value
 from law_tables import (
     DECADES,
@@ -37,8 +37,9 @@ def by_cut(ensemble: xarray.Dataset) -> dict[str, xarray.Dataset]:
     effect of the border of the period, surface by surface, times the ratio of both effects for a smooth crest.
     """
     period, interior = (ensemble.isel(row=row, drop=True) for row in range(2))
-    ratio = integrals()["patch"] / integrals()["period"]
     k, middle = (each_["dimensionless_stiffness"] for each_ in (period, interior))
+    width = middle.mean("sample") / 2
+    ratio = width.copy(data=mean_effect(width.to_numpy(), LARGER) / mean_effect(width.to_numpy(), PERIOD))
     patch = interior.assign(dimensionless_stiffness=middle + ratio * (k - middle))
     found = {"interior": interior, "period": period, "patch": patch}
     inner = interior["border_share"].mean("sample") <= BORDER
@@ -169,7 +170,7 @@ def _effects(cuts: dict[str, xarray.Dataset]) -> Table:
                 bool(resolved(interior, interior["mean"]).isel(at))
             )
             line += [each_percent(ratio.expand_dims("one", 1), samples)[0]]
-            expected = 2 * float(value(middle)) * integrals()["period"]
+            expected = float(mean_effect(value(middle).to_numpy() / 2, PERIOD))
             line += [percent(expected, np.nan) if line[-1] != "-" else "-"]
         body.append(line)
     head = ["H", *(words for at in SHOWN for words in (f"at {at:g}", f"theory at {at:g}"))]

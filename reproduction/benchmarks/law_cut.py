@@ -36,6 +36,9 @@ O(a^2/L^2). `added` is the mean over all places on such a map, with its corners.
 
 from __future__ import annotations
 
+import csv
+from fractions import Fraction
+
 import law_peer
 import numpy as np
 from law_ensembles import ROOT, STUDIES
@@ -128,6 +131,16 @@ def stiffness_ratio(place: Array, cut: str) -> Array:
     table = np.loadtxt(DATA / "cut.csv", delimiter=",", skiprows=1)
     x, s = table[:, 0], table[:, 1 + CUTS.index(cut)]
     found: Array = PchipInterpolator(x, s)(np.minimum(place, x[-1]))
+    return found
+
+
+def mean_effect(width: Array, cut: str) -> Array:
+    """Return k_all/k_mid - 1 of a cut, one of `CUTS`, for a/L = `width`, at most 1/4, from docs/data/law/cut-*.csv."""
+    name = dict(zip(CUTS, ("cut-period", "cut-larger"), strict=True))[cut]
+    with (DATA / f"{name}.csv").open(encoding="utf-8") as file:
+        rows = list(csv.reader(file))[1:]
+    points = sorted((float(Fraction(first)), float(last)) for first, *_, last in rows)
+    found: Array = width * PchipInterpolator(*np.transpose(points))(np.minimum(width, points[-1][0]))
     return found
 
 

@@ -10,7 +10,7 @@ import matplotlib
 import numpy as np
 import xarray
 from law_crest import at_border, by_cut, effects, laws_of
-from law_cut import integrals, stiffness_ratio
+from law_cut import LARGER, PERIOD, mean_effect, stiffness_ratio
 from law_ensembles import CELLS, FOLDER, Values, error, law, read, resampled, value
 from law_tables import HIGHEST, LIMITS, MIDDLE, between, curves, load_at, nested, on_grids
 from matplotlib.axes import Axes
@@ -85,7 +85,7 @@ def cut(figure: Figure, ensemble: xarray.Dataset, border: xarray.Dataset) -> Non
     """Draw s(x) of one crest with the crests of E8 (a), and the effect of a random cut beside its theory (b)."""
     left, right = drawing.panels(figure, 1, 2)
     x = np.linspace(0, 1.6, 200)
-    for name, colour in (("period", drawing.SURFACES), ("patch", drawing.LINES)):
+    for name, colour in ((PERIOD, drawing.SURFACES), (LARGER, drawing.LINES)):
         left.plot(x, stiffness_ratio(x, name), color=colour, label=f"smooth crest, {name}")
     for h, mark in zip(CRESTS, "ov^", strict=True):
         rows = at_border(ensemble, border, h)
@@ -102,8 +102,8 @@ def cut(figure: Figure, ensemble: xarray.Dataset, border: xarray.Dataset) -> Non
             one["width"], 100 * one["effect"], 200 * one["spread"], fmt=mark, markersize=4, elinewidth=0.8,
             markerfacecolor="none", label=f"H = {h:g}",
         )  # fmt: skip
-    width = np.linspace(0, 0.45, 2)
-    right.plot(width, 100 * width * integrals()["period"], color=drawing.LAW, label="theory of one crest")
+    width = np.linspace(0, 0.45, 100)
+    right.plot(width, 100 * mean_effect(width / 4, PERIOD), color=drawing.LAW, label="theory of one crest")
     drawing.label(right, "4 a/L", "a random cut adds to k, %")
     for axes in (left, right):
         axes.legend(loc="best")

@@ -215,7 +215,7 @@ def made_cuts(samples=60):
     force = np.geomspace(7e-5, 0.07, 16)
     alpha = np.array([0.4, 0.5])
     scatter = 1 + 0.1 * rng.normal(size=(1, 2, samples, 1))
-    k = 0.5 * (force / 0.02) ** alpha[:, None, None] * scatter * np.array([1.1, 1.0])[:, None, None, None]
+    k = 0.12 * (force / 0.02) ** alpha[:, None, None] * scatter * np.array([1.1, 1.0])[:, None, None, None]
     share = np.broadcast_to(np.where(force > 0.01, 0.06, 0.01), k.shape)
     dims = ("row", "hurst", "sample", "load")
     return xarray.Dataset(
@@ -232,7 +232,7 @@ def made_cuts(samples=60):
 
 def test_interior_loads_end_where_a_twentieth_of_the_force_is_at_the_border(script):
     from law_crest import by_cut, laws_of, misfit, table
-    from law_cut import integrals
+    from law_cut import LARGER, PERIOD, mean_effect
     from law_ensembles import value
 
     made = made_cuts()
@@ -242,25 +242,27 @@ def test_interior_loads_end_where_a_twentieth_of_the_force_is_at_the_border(scri
     assert (seen["interior"] < 0.01).all()
     assert (seen["period"] == force[-1].item()).all()
     assert (seen["patch"] == force[-1].item()).all()
-    for one in cuts.values():
-        alpha, _ = laws_of(one)
+    for cut in ("interior", "period"):
+        alpha, _ = laws_of(cuts[cut])
         np.testing.assert_allclose(value(alpha), [0.4, 0.5], rtol=1e-12)
-        np.testing.assert_allclose(misfit(one), 0, atol=1e-12)
+        np.testing.assert_allclose(misfit(cuts[cut]), 0, atol=1e-12)
     # The patch has the period's effect, + 10 %, times the ratio of both effects for one crest, which is negative.
-    ratio = integrals()["patch"] / integrals()["period"]
-    assert -1 < ratio < 0
-    levels = {cut: value(laws_of(one)[1]) for cut, one in cuts.items()}
-    np.testing.assert_allclose(levels["patch"] / levels["interior"], 1 + 0.1 * ratio, rtol=1e-9)
-    np.testing.assert_allclose(levels["period"] / levels["interior"], 1.1, rtol=1e-12)
+    middle = value(cuts["interior"]["mean"])
+    ratio = mean_effect(middle.to_numpy() / 2, LARGER) / mean_effect(middle.to_numpy() / 2, PERIOD)
+    assert (ratio < 0).all()
+    assert (ratio > -1).all()
+    np.testing.assert_allclose(value(cuts["patch"]["mean"]) / middle, 1 + 0.1 * ratio, rtol=1e-9)
+    np.testing.assert_allclose(value(cuts["period"]["mean"]) / middle, 1.1, rtol=1e-12)
     rows = table(made)
     # Half of the effect of the border that was not computed is an error.
-    assert [row[7] for row in rows["patch"]] == pytest.approx([0.05 * abs(ratio)] * 2, abs=1e-4)
+    for row, of_load, inside in zip(rows["patch"], ratio, cuts["patch"]["inside"].to_numpy(), strict=True):
+        assert row[7] >= 0.05 * abs(of_load[inside]).max() - 1e-4
     assert [row[7] for row in rows["interior"]] == [0, 0]
 
 
 def test_the_tables_of_the_cut(script, tmp_path):
     from law_crest import e8
-    from law_cut import integrals
+    from law_cut import PERIOD, mean_effect
 
     made = made_cuts()
     assert e8(tmp_path) == {}
@@ -268,12 +270,15 @@ def test_the_tables_of_the_cut(script, tmp_path):
     tables = e8(tmp_path)
     assert [line[3] for line in tables["e8"][1]] == ["0.400 ± 0.000", "0.500 ± 0.000"]
     assert [line[4] for line in tables["e8"][1]] == ["-20.0 ± 0.0 %", "+25.0 ± 0.0 %"]
-    assert [line[5] for line in tables["e8"][1]] == ["+0.0 ± 0.0 %"] * 2
+    assert {line[5].lstrip("+-") for line in tables["e8"][1]} == {"0.0 ± 0.0 %"}
     head, body = tables["e8-cut"]
     assert head[-2:] == ["at 0.07", "theory at 0.07"]
     assert body[0][-2] == "+10.0 ± 0.0 %"
-    k = 0.5 * 3.5**0.4
-    assert float(body[0][-1].split()[0]) == pytest.approx(200 * k * integrals()["period"], rel=0.05)
+    k = 0.12 * 3.5**0.4
+    # The mean of sixty surfaces that scatter by a tenth is 4 % off at most; a printed digit is 0.05 %.
+    assert float(body[0][-1].split()[0]) == pytest.approx(
+        100 * float(mean_effect(np.array(k / 2), PERIOD)), rel=0.06
+    )
     shares = {tuple(line[:2]): line[-1] for line in tables["e8-share"][1]}
     assert shares["1", "interior"] == "6.0 %"
     assert shares["1", "period"] == "18.0 %"
