@@ -67,7 +67,7 @@ def test_how_the_history_is_cut_matters_less_than_the_stated_error(kind):
 
 
 def test_a_viscous_body_under_a_sudden_force_is_the_elastic_one_with_four_eta_over_t():
-    """The impulse of the pressure is the elastic pressure under the impulse of the force, at each step of any length."""
+    """The impulse of the pressure is the elastic pressure under the impulse of the force, at each step."""
     force, times = 0.3 * LOADS["forces"], [0.0, 0.0, 0.25, 1.0]
     body = rc.viscoelastic.viscous(0.25)
     states = list(rc.viscoelastic_path(ROUGH, body, times=times, forces=[0.0, *[force] * 3], steps=2))
