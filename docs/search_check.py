@@ -80,14 +80,12 @@ QUESTIONS = {
     "tilt of a pin": "gallery/derivatives/worn_pin",
     "inverse problem": "gallery/derivatives/worn_pin",
     "ehl": "gallery/lubrication/line_contact",
-    "oil film thickness": "gallery/lubrication/line_contact",
     "elastohydrodynamic": "gallery/lubrication/line_contact",
     "squeeze film": "gallery/lubrication/squeeze_film",
     "sealing lip": "gallery/bodies/sealing_lip",
     "body of revolution": "gallery/bodies/sealing_lip",
-    "rings": "gallery/bodies/cone_on_rings",
     "moving grid": "gallery/bodies/four_sums",
-    "viscous": "gallery/rubber/viscous_mould",
+    "viscous body": "gallery/rubber/viscous_mould",
 }
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 
