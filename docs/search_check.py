@@ -79,6 +79,13 @@ QUESTIONS = {
     "design a joint": "gallery/derivatives/design_a_joint",
     "tilt of a pin": "gallery/derivatives/worn_pin",
     "inverse problem": "gallery/derivatives/worn_pin",
+    "ehl": "gallery/lubrication/line_contact",
+    "elastohydrodynamic": "gallery/lubrication/line_contact",
+    "squeeze film": "gallery/lubrication/squeeze_film",
+    "sealing lip": "gallery/bodies/sealing_lip",
+    "body of revolution": "gallery/bodies/sealing_lip",
+    "moving grid": "gallery/bodies/four_sums",
+    "viscous body": "gallery/rubber/viscous_mould",
 }
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 

@@ -169,7 +169,9 @@ def test_figures_without_an_ensemble_are_those_that_are_kept(script):
     assert {name: each["seed"] for name, each in kept.items()} == {name: module(name).SEED for name in SIMPLE}
 
 
-@pytest.mark.parametrize("name", ["fig13", "fig15", "fig19", "fig36", "fig43", "fig46"])
+@pytest.mark.parametrize(
+    "name", ["fig3", "fig13", "fig15", "fig19", "fig36", "fig43", "fig45", "fig46", "fig47"]
+)
 def test_what_is_kept_of_a_quick_figure_is_what_it_finds(script, name):
     # What is found may end in a rounding error, which is another on another machine.
     found, kept = module(name), script.read_simple(FOLDER)[name]["verdicts"]

@@ -64,3 +64,17 @@ def test_how_the_history_is_cut_matters_less_than_the_stated_error(kind):
         a, b = (getattr(each, name) for each in transferred)
         # The growth is integrated in small steps of each interval, with an error of about 1e-6.
         assert b[again] == pytest.approx(a, abs=1e-5 * a.max())
+
+
+def test_a_viscous_body_under_a_sudden_force_is_the_elastic_one_with_four_eta_over_t():
+    """The impulse of the pressure is the elastic pressure under the impulse of the force, at each step."""
+    force, times = 0.3 * LOADS["forces"], [0.0, 0.0, 0.25, 1.0]
+    body = rc.viscoelastic.viscous(0.25)
+    states = list(rc.viscoelastic_path(ROUGH, body, times=times, forces=[0.0, *[force] * 3], steps=2))
+    assert [each.time for each in states] == [0.0, 0.125, 0.25, 0.625, 1.0]
+    assert states[0].depth == 0
+    for each in states[1:]:
+        elastic = rc.press(ROUGH, 1 / each.time, force=force)  # 4 eta = 1
+        # Two solutions with residuals of 1e-8 of the largest displacement, which is less than ten depths.
+        assert each.depth == pytest.approx(elastic.depth, rel=1e-6)
+        np.testing.assert_array_equal(each.contact, elastic.contact)

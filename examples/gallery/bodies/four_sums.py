@@ -1,9 +1,10 @@
 """
-Four methods of summation for one body
-======================================
+Four methods of summation: matrix, transform, moving grid, multilevel
+=====================================================================
 
-The displacement under a pressure is a sum over all cells, which can be computed by four methods. If a method
-is inexact, the exact sum certifies its answer. All four methods therefore give the same pressure.
+The displacement under a pressure is a sum over all cells, which can be computed by four methods. The moving grid
+shifts the displacement under one cell to each loaded cell and adds them up, without a transform. If a method is
+inexact, the exact sum certifies its answer. All four methods therefore give the same pressure.
 """
 
 import matplotlib.pyplot as plt

@@ -10,9 +10,7 @@ from matplotlib.figure import Figure
 from roughcontact.mdr.bodies import indenter
 from roughcontact.mdr.bodies.axisymmetric_profile import Profile
 from roughcontact.mdr.bodies.indentation import indentation_curve
-from roughcontact.mdr.lines.rough_line import loading_curves
 from roughcontact.theory.spheres_and_punches import rough_sphere
-from roughcontact.theory.spheres_and_punches.hertz import point
 from roughcontact.theory.stiffness_laws import pohrt_popov
 from roughcontact_thesis import drawing
 from roughcontact_thesis.ruling import exactly
@@ -69,7 +67,7 @@ def draw(figure: Figure, data: Indenters) -> None:
 
 
 def verdicts(data: Indenters) -> Verdicts:
-    """Return whether the indenters have the stiffness that eqs 5.5 and 5.9 give them, and springs that of Hertz."""
+    """Return whether the indenters have the stiffness that eqs 5.5 and 5.9 give them."""
     _, rough, both = (indentation_curve(each, 1.0, forces=FORCES * LENGTH**2) for each in data)
     law = pohrt_popov.stiffness(rough.force, HURST, RMS, LENGTH, 1.0)
     force = rough_sphere.force(
@@ -93,24 +91,5 @@ def verdicts(data: Indenters) -> Verdicts:
         "section 5.2, eq. 5.9 with E* for E",
         f"within {max(off_force, 1e-15):.0e} of the indentation of the profile",
         exactly(bool(off_force < 1e-10), "rounding"),
-        "method",
-    )
-    yield _springs()
-
-
-def _springs() -> Verdict:
-    """Return force and radius of Hertz' contact from springs under a parabola of half the radius (eqs A.60 to A.66)."""
-    count, depths = 20001, np.array([1e-3, 1e-2])
-    x = np.linspace(-0.2, 0.2, count) * RADIUS
-    pressed = loading_curves(-(x**2) / RADIUS, x[1] - x[0], 1.0, depths=depths)
-    exact = point(1.0, radius=RADIUS, depth=depths)
-    off = float(np.abs(pressed.force[0] / exact.force - 1).max())
-    wide = float(np.abs(pressed.stiffness[0] / (2 * exact.contact_radius) - 1).max())
-    return Verdict(
-        "independent springs under R1 = R/2 have the force and the radius of Hertz",
-        "So simply by choosing R_1 = R/2, we can find that eq. A.61 and A.62 as well as A.60 and A.65 coincide.",
-        "section A.2, eqs A.60 to A.66",
-        f"force within {off:.0e}, radius within {wide:.0e} on {count} springs",
-        exactly(max(off, wide) < 5e-3, "5e-3: a spring over the radius"),
         "method",
     )

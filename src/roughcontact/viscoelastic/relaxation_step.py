@@ -53,7 +53,7 @@ class Transition:
             np.array(material.moduli, np.float64) / reference,
             step / np.array(material.times, np.float64),
             material.equilibrium / reference,
-            material.dashpot / (reference * step) if step else 0.0,
+            material.dashpot / (reference * step) if step else float(material.instantaneous == 0),
         )
 
     @property
