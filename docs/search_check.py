@@ -30,7 +30,7 @@ QUESTIONS = {
     "abaqus": "coming-from/abaqus",
     "calculix": "coming-from/calculix",
     "freecad": "coming-from/calculix",
-    "moose": "concepts/joints",
+    "moose": "how-to/interface-tables",
     "tamaas": "coming-from/tamaas",
     "aspher": "coming-from/aspher",
     "contact.engineering": "coming-from/contactmechanics",

@@ -78,6 +78,8 @@ def test_a_bolt_under_shear(joint, home, tmp_path):
 
 
 def test_a_table_of_pressures(joint, home):
+    printed = joint("--pressure-field", home / "field.csv", "--modulus", "110GPa").stdout
+    assert "face                               3 x 4 cells, 3 mm x 8 mm\n" in printed
     answer = joint("--pressure-field", home / "field.csv", "--modulus", "110GPa", "--json")
     assert answer.exit_code == 0, answer.stderr
     field = rc.read_pressure_field(home / "field.csv")

@@ -45,6 +45,7 @@ def test_lines_are_those_of_the_law_in_units_that_suit(scale, unit, loss_unit):
         np.testing.assert_allclose(tau[[0, -1]], [0, 0.3 * p * 1e-6], rtol=1e-12)
         np.testing.assert_allclose(s, law.displacement(tau * 1e6, p) * of_length, rtol=1e-9)
     [area] = backbones.patches
+    assert area.get_label() == "cycle to 0.8 mu p"
     cycle = law.cycle(4e6, traction=0.8 * 0.3 * 4e6)
     np.testing.assert_allclose(area.get_xy()[: len(cycle.traction), 1], cycle.traction * 1e-6, rtol=1e-12)
     for line, marks, p in zip(losses.lines[::2], losses.lines[1::2], PRESSURES, strict=True):

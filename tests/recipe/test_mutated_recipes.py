@@ -167,7 +167,7 @@ OUT_OF_RANGE = {
     "Specified.points": ("0", "512", "512x256"),
     "Specified.seed": ("-1", "2"),
     "Specified.periodic": (0, True, False),
-    "NominalPressures.pressures": ("5MPa:1MPa:3", "1mPa:1Pa:100"),
+    "NominalPressures.pressures": ("5MPa:1MPa:3", "1kPa:1MPa:100"),
     "JointTheories.theory": ("hertz", "persson", "mikic"),
     "JointTheories.hardness": ("2", "2GPa", "2Pa"),
     "SmoothBody.shape": ("cube", "sphere", "cylinder", "paraboloid"),

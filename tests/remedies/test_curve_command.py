@@ -39,7 +39,7 @@ $ {CURVE} --forces 2mN,1mN
 > {CURVE} --forces 1mN,2mN
 
 $ {CURVE} --forces 0N,1mN
-! every load must be positive, not 0 N; leave it out
+! every load must be positive, not 0 N; give positive loads only
 > {CURVE} --forces 1mN
 > {CURVE} --forces 1uN,1mN
 

@@ -61,11 +61,12 @@ $ {PRESS} --periodic --depth 1um
 > {PRESS} --periodic --force 1mN
 
 $ {PRESS} --force 1mN --tolerance 1
-! the tolerance must lie between 1e-14 and 0.01, not '1'; give a number such as 1e-8
+! the tolerance must lie between 1e-14 and 0.01 (both excluded), not '1'; give a number such as 1e-8
 > {PRESS} --force 1mN --tolerance 1e-8
 > {PRESS} --force 1mN --tolerance 1e-3
 
 $ {PRESS} --force 1mN --hardness 1kPa
+! --force: a force of 1 mN exceeds
 ! all measured cells can carry at this hardness
 > {PRESS} --force 1.5uN --hardness 1kPa
 > {FLOWS}

@@ -26,7 +26,7 @@ $ shear rough.npz {BODIES} --friction 0.2 --pressure 10MPa
 > {SHEAR} 10MPa
 
 $ shear rough.npz {BODIES} --friction 0 --pressures 10MPa
-! --friction: the coefficient of friction must lie between 0 and 10, not '0'; give a number such as 0.2
+! --friction: the coefficient of friction must lie between 0 and 10 (both excluded), not '0'; give a number such as 0.2
 > {SHEAR} 10MPa
 
 $ {SHEAR} 10N
@@ -51,6 +51,20 @@ $ {SHEAR} 10MPa --after 1MPa --hardness 2GPa
 ! --after 1MPa is not larger than the pressures: leave it out, or give a larger one
 > {SHEAR} 10MPa --hardness 2GPa
 > {SHEAR} 10MPa --after 20MPa --hardness 2GPa
+
+$ {SHEAR} 10MPa --hardness 5MPa
+! --pressures: a force of
+! the most that all measured cells can carry at this hardness; press by less, or give a greater hardness
+> {SHEAR} 1MPa --hardness 5MPa
+> {SHEAR} 10MPa --hardness 5GPa
+
+$ {SHEAR} 0MPa
+! --pressures: every load must be positive, not 0 Pa; give positive loads only
+> {SHEAR} 1MPa
+
+$ {SHEAR} 10MPa:1MPa:3
+! unlike '10MPa:1MPa:3'; write one such as 1kPa:1MPa:100
+> {SHEAR} 1kPa:1MPa:100
 
 $ {SHEAR} 10MPa --profile line
 ! --profile: shear needs a map of heights; leave --profile out

@@ -40,7 +40,7 @@ ROWS = [
         lambda: field(np.where(EVEN > 0, 1.0, 0.0)),
         lambda: field(np.where([[1, 1, 0], [1, 1, 1]], 1.0, np.nan)),
     ),
-    row(lambda: field(EVEN * math.inf), "is finite and not negative", field),
+    row(lambda: field(EVEN * math.inf), "must be finite and not negative", field),
     row(lambda: field(0 * EVEN), "no cell of the face is under pressure: give a field with a force", field),
     row(
         lambda: field(EVEN[0]),
@@ -53,12 +53,13 @@ ROWS = [
     row(lambda: field(grid=-1.0), "must be positive", field),
     row(
         lambda: rc.bolt_pressure(**BOLT | {"head": 9e-3}),
-        "the head of 0.009 m is not wider than the hole of 0.009 m: give the diameters of both",
+        "the head of 9 mm is not wider than the hole of 9 mm: give a wider head or washer, or a smaller hole",
         lambda: rc.bolt_pressure(**BOLT),
+        lambda: rc.bolt_pressure(**BOLT | {"head": 9e-3, "hole": 8e-3}),
     ),
     row(
         lambda: rc.bolt_pressure(**BOLT, half_angle=30),
-        "give one such as 30 degrees, 0.52 rad",
+        "must be less than 90 degrees, not 1718.87 degrees: give one such as 30deg, which is 0.52 rad",
         lambda: rc.bolt_pressure(**BOLT, half_angle=0.52),
     ),
     row(
@@ -153,7 +154,7 @@ POINTS = "".join(f"{x},{y},{1 + x}\n" for y in (0, 1) for x in (0, 1, 2))
 TABLES = [
     row(
         lambda folder, wrong=wrong: read(folder, wrong + POINTS),
-        "write the points under a first line such as x [mm], y [mm], p [MPa]",
+        "write the points of a regular grid under a first line such as x [mm], y [mm], p [MPa]",
         lambda folder: read(folder, "x [mm], y [mm], p [MPa]\n" + POINTS),
     )
     for wrong in (
@@ -187,16 +188,22 @@ $ {FLAT} --pressure-field field.csv --head 13mm
 > {BOLTED}
 
 $ {BOLTED.replace("13mm", "8mm")}
-! --head, --hole: the head of 0.008 m is not wider than the hole of 0.009 m; give the diameters of both
+! --head, --hole: the head of 8 mm is not wider than the hole of 9 mm; give a wider head or washer, or a smaller hole
 > {BOLTED}
+> {BOLTED.replace("13mm", "8mm").replace("9mm", "7mm")}
+
+$ {BOLTED.replace("13mm", "13")}
+! --head: 13 without a unit is 13 m, larger than a bolt; write 13mm or, for a value in m, 13m
+> {BOLTED}
+> {BOLTED.replace("13mm", "13m")}
 
 $ {BOLTED} --half-angle 30mm
 ! --half-angle: '30mm' is not an angle; write an angle such as 30deg
 > {BOLTED} --half-angle 30deg
 
 $ {BOLTED} --half-angle 90deg
-! --half-angle: the half angle of the cone must be less than a right angle
-! give one such as 30 degrees, 0.52 rad
+! --half-angle: the half angle of the cone must be less than 90 degrees, not 90 degrees
+! give one such as 30deg, which is 0.52 rad
 > {BOLTED} --half-angle 30deg
 > {BOLTED} --half-angle 0.52rad
 
@@ -205,12 +212,17 @@ $ {BOLTED} --friction 0.2
 > {BOLTED.replace("--modulus 1GPa", "--materials steel,aluminium")} --friction 0.2
 
 $ {NAMED} --friction 0
-! the friction coefficient must lie between 0 and 10, not '0'
+! the coefficient of friction must lie between 0 and 10 (both excluded), not '0'
 > {NAMED} --friction 0.2
 
 $ {NAMED} --amplitude 1um
 ! --amplitude needs --friction, which is not given: give --friction too
 > {NAMED} --amplitude 1um --friction 0.2
+
+$ {NAMED} --friction 0.2 --amplitude 0.5
+! --amplitude: 0.5 without a unit is 0.5 m, larger than the slip of a joint; write 0.5um or, for a value in m, 0.5m
+> {NAMED} --friction 0.2 --amplitude 0.5um
+> {NAMED} --friction 0.2 --amplitude 0.5m
 
 $ {NAMED} --friction 0.2 --amplitude 1pm
 ! --amplitude: at a force below
@@ -224,6 +236,12 @@ $ {BOLTED} --leak 0 --drop 1kPa
 $ {BOLTED} --leak 0 --viscosity 1mPa*s
 ! --leak is given without --drop; give --drop, such as 1bar
 > {BOLTED} --leak 0 --viscosity 1mPa*s --drop 1bar
+
+$ {BOLTED} --hardness 100Pa
+! --bolt-force: a force of
+! the most that all measured cells can carry at this hardness; press by less, or give a greater hardness
+> {BOLTED.replace("10N", "1mN")} --hardness 100Pa
+> {BOLTED} --hardness 1GPa
 
 $ {WET} --hardness 1GPa
 ! --leak does not go with a hardness: the flow is computed for increasing loads only; leave out one of them
@@ -247,7 +265,7 @@ $ {FLAT} --pressure-field missing.csv
 > {FLAT} --pressure-field field.csv
 
 $ {FLAT} --pressure-field tension.csv
-! the pressure on a face is finite and not negative
+! --pressure-field: the pressure on a face must be finite and not negative
 > {FLAT} --pressure-field field.csv
 """
 

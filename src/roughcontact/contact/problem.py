@@ -17,6 +17,8 @@ from roughcontact.grid import AnyGrid
 from roughcontact.halfspace.operators.geometry import Geometry
 from roughcontact.halfspace.operators.operator import Operator, exact_of, geometry_of, is_semidefinite
 from roughcontact.kernels import buffers
+from roughcontact.labels.engineering_units import written
+from roughcontact.labels.variables import unit_of
 from roughcontact.materials import Material
 from roughcontact.solver.control import Control, Depth, Force, Specification, checked_tolerance
 from roughcontact.solver.inner_product import Measure
@@ -128,9 +130,10 @@ class ContactProblem:
         if isinstance(self.control, Force) and self.plastic:
             strongest = bearing_force(self.measure, self.measured, self.spec)
             if self.control.value >= strongest:
+                unit = unit_of("force", self.geometry)
+                given, most = written(self.control.value, unit, 6), written(strongest, unit, 6)
                 raise InputError(
-                    f"a force of {self.control.value:.6g} exceeds {strongest:.6g}, the most that all measured cells "
-                    "can carry at this hardness",
+                    f"a force of {given} exceeds {most}, the most that all measured cells can carry at this hardness",
                     "press by less, or give a greater hardness",
                     "force",
                 )

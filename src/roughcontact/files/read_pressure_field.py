@@ -14,7 +14,7 @@ from roughcontact.joints.pressure_field import PressureField
 
 __all__ = ["read_pressure_field"]
 
-_REMEDY = "write the points under a first line such as x [mm], y [mm], p [MPa]"
+_REMEDY = "write the points of a regular grid under a first line such as x [mm], y [mm], p [MPa]"
 
 
 def read_pressure_field(path: str | os.PathLike[str]) -> PressureField:

@@ -14,6 +14,7 @@ import numpy as np
 from roughcontact.errors import InputError, about
 from roughcontact.grid import Grid
 from roughcontact.joints.pressure_field import PressureField
+from roughcontact.labels.engineering_units import written
 from roughcontact.validation import numeric, positive_scalar, require
 
 __all__ = ["bolt_pressure"]
@@ -74,17 +75,16 @@ def bolt_pressure(
         positive_scalar(value, name)
     require(
         0 <= half_angle < math.pi / 2,
-        "the half angle of the cone must be less than a right angle",
-        "give one such as 30 degrees, 0.52 rad",
-        value=half_angle,
+        f"the half angle of the cone must be less than 90 degrees, not {math.degrees(half_angle):g} degrees",
+        "give one such as 30deg, which is 0.52 rad",
         place="half_angle",
     )
     if distribution not in ("even", "falling"):
         raise about("distribution", f"must be 'even' or 'falling', not {distribution!r}")
     if not head > hole:
         raise InputError(
-            f"the head of {head:g} m is not wider than the hole of {hole:g} m",
-            "give the diameters of both",
+            f"the head of {written(head, 'm', 6)} is not wider than the hole of {written(hole, 'm', 6)}",
+            "give a wider head or washer, or a smaller hole",
             "head, hole",
         )
     width = head + 2 * thickness * math.tan(half_angle)
@@ -92,7 +92,7 @@ def bolt_pressure(
         grid = Grid((_CELLS, _CELLS), size=width)
     elif grid.ndim != 2 or min(grid.lengths) < width * (1 - 1e-9):
         raise InputError(
-            f"the cone is {width:g} m wide at the interface, and does not fit on the grid",
+            f"the cone is {written(width, 'm')} wide at the interface, and does not fit on the grid",
             "give a larger grid, or leave it out",
             "grid",
         )

@@ -61,7 +61,7 @@ class PressureField:
             )
         require(
             ~((p < 0) | np.isinf(p)),
-            "the pressure on a face is finite and not negative: the law of an interface holds no tension",
+            "the pressure on a face must be finite and not negative, because the law of an interface holds no tension",
             "give 0 where the face is open, and NaN where there is no face",
             place="pressure",
             value=p,

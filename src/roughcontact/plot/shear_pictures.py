@@ -82,7 +82,8 @@ def shear_figure(law: ShearLaw, table: xarray.Dataset, cycles: Sequence[SlipCycl
     share = float(column["traction_share"][-1])
     if share >= law.smallest_share(last):
         loop = law.cycle(last, traction=share * law.friction * last)
-        backbones.fill(loop.displacement * x.factor, loop.traction * y.factor, color="0.85", zorder=0)
+        area: Any = {"color": "0.85", "zorder": 0, "label": f"cycle to {share:g} mu p"}
+        backbones.fill(loop.displacement * x.factor, loop.traction * y.factor, **area)
     cross: Any = _MARK | {"color": "#d55e00", "marker": "x", "label": "by partial slip"}
     for cycle in cycles:
         losses.plot(cycle.loop.displacement[0] * x.factor, cycle.loop.loss * loss.factor, **cross)

@@ -56,8 +56,10 @@ def operator_call(profile: str | None, modulus: str) -> Iterator[Call]:
         )
 
 
-def pressed(function: str, named: Mapping[str, Any], result: str, place: str) -> Call:
-    """Return the call that presses the surface, by one load or several."""
-    return Call(
-        function, (Name("surface"), Name("modulus")), named, result=result, place=place, doing="Pressing"
-    )
+def pressed(
+    function: str, named: Mapping[str, Any], result: str, place: str, *, load: str | None = None
+) -> Call:
+    """Return the call that presses the surface by one load or several, which are in the field `load` of the place."""
+    load = load or next((name for name in ("forces", "pressures", "pressure") if name in named), "force")
+    given, fields = (Name("surface"), Name("modulus")), {"force": load}
+    return Call(function, given, named, result=result, place=place, doing="Pressing", fields=fields)

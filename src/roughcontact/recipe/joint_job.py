@@ -15,11 +15,12 @@ from roughcontact.recipe.plastic_flow import LoopOfLoads, yields_at
 from roughcontact.recipe.preparation import Preparation
 from roughcontact.recipe.recipe_fields import check, described, value_of, values_of
 from roughcontact.recipe.source import Source
-from roughcontact.recipe.texts import Amount, Choice, PureNumber, sha256, word
+from roughcontact.recipe.texts import Amount, Choice, Likely, PureNumber, sha256, word
 
 __all__ = ["JointJob", "JointLeak", "JointPressure", "JointShear"]
 
-_LENGTH = Amount(LENGTH)
+_LENGTH = Likely(Amount(LENGTH), 0.0, 1.0, "larger than a bolt", "mm")
+_AMPLITUDE = Likely(Amount(LENGTH), 0.0, 1e-3, "larger than the slip of a joint", "um")
 _ANGLE = Amount(ANGLE, "the half angle", positive=False, zero=True)
 
 
@@ -89,13 +90,13 @@ class JointShear:
     friction: str | None = described(
         "Coefficient of friction. The stiffness under shear and torsion is computed, and both bodies are needed.",
         "0.2",
-        read=PureNumber(0, 10, "the friction coefficient", "0.2", ends=False),
+        read=PureNumber(0, 10, "the coefficient of friction", "0.2", ends=False),
         everyday=True,
     )
     amplitude: str | None = described(
         "Amplitude of a tangential displacement, for the loss per cycle and the damping.",
         "1um",
-        read=_LENGTH,
+        read=_AMPLITUDE,
         needs="friction",
     )
 
@@ -167,7 +168,8 @@ class JointJob:
             named |= {"hardness": hardness, "flow": self.plastic.flow or "removed"}
         if self.leak.leak is not None:
             named["measures"] = [Call("rc.Transmissivity", (), {"axis": int(self.leak.leak)})]
-        yield pressed(function, named, law, "pressure")
+        load = "bolt_force" if self.pressure.pressure_field is None else "pressure_field"
+        yield pressed(function, named, law, "pressure", load=load)
         if (friction := value_of(self.shear, "friction")) is None:
             yield Call("rc.normal_law", (Name(law),), result="law", place="pressure")
         else:

@@ -161,4 +161,5 @@ class ShearJob:
 
 def _pressed(function: str, surface: str, named: dict[str, Any], result: str) -> Call:
     given = (Name(surface), Name("modulus"))
-    return Call(function, given, named, result=result, place="shear", doing="Pressing")
+    fields = {"force": "pressures"}
+    return Call(function, given, named, result=result, place="shear", doing="Pressing", fields=fields)

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from roughcontact.errors import InputError
 from roughcontact.files import quantity
-from roughcontact.files.quantity import FORCE, FORCE_PER_LENGTH, LENGTH, MODULUS, TEMPERATURE, Kind
+from roughcontact.files.quantity import FORCE, FORCE_PER_LENGTH, LENGTH, MODULUS, PRESSURE, TEMPERATURE, Kind
 from roughcontact.recipe.job_calls import Call
 
 if TYPE_CHECKING:
@@ -89,8 +89,9 @@ class PureNumber:
         """Return the value that a text states."""
         value = quantity.parse_number(text, self.example)
         if not (self.low <= value <= self.high if self.ends else self.low < value < self.high):
+            excluded = "" if self.ends else " (both excluded)"
             raise InputError(
-                f"{self.what} must lie between {self.low:g} and {self.high:g}, not {text!r}",
+                f"{self.what} must lie between {self.low:g} and {self.high:g}{excluded}, not {text!r}",
                 f"give a number such as {self.example}",
             )
         return value
@@ -238,7 +239,8 @@ def rising_loads(text: str, kind: Kind, what: str = "load") -> Call | list[float
 
     A range is returned as the call of NumPy that makes it.
     """
-    example = f"1m{kind.unit}:1{kind.unit}:100"
+    low_prefix, high_prefix = ("k", "M") if kind is PRESSURE else ("m", "")
+    example = f"1{low_prefix}{kind.unit}:1{high_prefix}{kind.unit}:100"
     if ":" in text:
         low, high, count = _range(text, kind, example, what)
         if not 0 < low < high:
@@ -251,7 +253,9 @@ def rising_loads(text: str, kind: Kind, what: str = "load") -> Call | list[float
     if not loads:
         raise InputError(f"{text!r} holds no {what}", f"write {example} or a comma list")
     if min(loads) <= 0:
-        raise InputError(f"every {what} must be positive, not {min(loads):g} {kind.unit}", "leave it out")
+        raise InputError(
+            f"every {what} must be positive, not {min(loads):g} {kind.unit}", f"give positive {what}s only"
+        )
     if any(after <= before for before, after in pairwise(loads)):
         raise InputError(f"the {what}s must increase from one to the next, unlike {text!r}", "sort them")
     return loads

@@ -81,6 +81,7 @@ def joint(job: JointJob, *, answer: Answer) -> None:
             write_state(folder / "joint", found, record, joint_figure(found), answer.ending, source)
     facts = [
         ("surface", size_of(surface.grid)),
+        ("face", size_of(found.field.grid).removesuffix(", free")),
         ("largest pressure", quantity("nominal_pressure", float(np.nanmax(found.field.pressure)))),
     ]
     for name, value in shown.items():
