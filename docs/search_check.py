@@ -79,6 +79,8 @@ QUESTIONS = {
     "design a joint": "gallery/derivatives/design_a_joint",
     "tilt of a pin": "gallery/derivatives/worn_pin",
     "inverse problem": "gallery/derivatives/worn_pin",
+    "all claims of the thesis": "evidence/reproduction-claims",
+    "the figures of the thesis": "evidence/reproduction-figures",
 }
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 
