@@ -141,7 +141,8 @@ def _modes(low: xarray.Dataset, common: xarray.DataArray) -> Verdict:
         "section 4.5.2",
         f"fitted above 20 springs {_two(low['exponent'].mean('hurst'))} for N = 2^9, 2^11; at forces from "
         f"{COMMON[0]:g} to {COMMON[1]:g} {_two(common)}, both ± {float(low['common_error'].mean()):.3f}, and there the "
-        f"stiffness is that of independent Gaussian heights, which does not depend on N, to "
-        f"{float(abs(off).max()):.1%}. With N grows the window of a fit, towards lower forces, where the curve is steeper",
+        "stiffness is that of independent Gaussian heights, which does not depend on N, to "
+        f"{float(abs(off).max()):.1%}. With N grows the window of a fit, towards lower forces, where the curve is "
+        "steeper",
         rule,
     )
