@@ -121,7 +121,7 @@ CLAIMS = f"""# The thesis, computed again: all claims
 
 This page lists every claim of the thesis that is judged, quoted word for word. The
 [first page](reproduction.md) has the findings, the [rules](reproduction.md#how-claims-are-judged) and the
-[symbols](reproduction.md#words-and-symbols). The number of a figure leads to its picture and all results. The last
+[symbols](reproduction.md#words-and-symbols). The number of a figure leads to its picture and all results. Five
 columns give verdict and deviations in each range of H that is computed; a claim about 0 < H < 2 is judged from
 {VICINITY:g} to {2 - VICINITY:g}. All rows are in one [data file](../data/reproduction/claims.csv), from which these
 tables are made.
@@ -232,19 +232,19 @@ def _table(every: Sequence[dict[str, str]], kind: str) -> list[str]:
     counts = Counter(row["verdict"] for row in rows)
     told = ", ".join(f"{counts[word]} {_MANY[word]}" for word in _MANY if counts[word])
     ranges = [column for column in _IN_RANGE if any(row[column] for row in rows)]
-    head = ["figure", "claim", "the thesis", "tolerance", "verdict", "decided by", *ranges]
+    head = ["figure", "claim", "verdict", *ranges, "decided by", "tolerance", "the thesis"]
     lines = [f"## {title}", "", f"{words} Of {len(rows)}, {told}.", ""]
     lines += [f"| {' | '.join(head)} |", "|---" * len(head) + "|"]
     for row in rows:
         word = f"{row['verdict']} ({row['where']})" if row["where"] else row["verdict"]
         cells = (
-            row["claim"],
-            f"“{row['quote']}” ({row['source']})",
-            ", ".join(filter(None, (row["tolerance"], row["judged for"]))),
-            f"**{word}**" if word == "does not hold" else plain(word),
-            row["decided by"],
+            word,
             *(row[column] for column in ranges),
+            row["decided by"],
+            ", ".join(filter(None, (row["tolerance"], row["judged for"]))),
+            f"“{row['quote']}” ({row['source']})",
         )
-        shown = (cell if cell.startswith("**") else plain(cell) for cell in cells)
-        lines.append(f"| {_link(row['figure'])} | {' | '.join(shown)} |")
+        claim, verdict, *rest = map(plain, (row["claim"], *cells))
+        verdict = f"**{verdict}**" if word == "does not hold" else verdict
+        lines.append(f"| {_link(row['figure'])} | {' | '.join((claim, verdict, *rest))} |")
     return [*lines, ""]

@@ -83,7 +83,7 @@ def _by_larger(entry: Entry, larger: list[law_verdicts.Larger]) -> Entry:
     finding = entry.finding
     decided = [now for now, own in zip(judged, entry.verdicts, strict=True) if now.word != own.word]
     if finding and decided:
-        finding += f" A larger ensemble decides: {decided[0].claim} ({decided[0].word})."
+        finding += f' A larger ensemble decides "{decided[0].claim}": {decided[0].word}.'
     return replace(entry, verdicts=judged, finding=finding)
 
 
