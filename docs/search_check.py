@@ -86,6 +86,8 @@ QUESTIONS = {
     "body of revolution": "gallery/bodies/sealing_lip",
     "moving grid": "gallery/bodies/four_sums",
     "viscous body": "gallery/rubber/viscous_mould",
+    "all claims of the thesis": "evidence/reproduction-claims",
+    "the figures of the thesis": "evidence/reproduction-figures",
 }
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 

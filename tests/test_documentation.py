@@ -25,7 +25,7 @@ from roughcontact.cli.app import app
 HOME = Path(__file__).parent.parent
 PAGES = [HOME / "README.md", *sorted((HOME / "docs").rglob("*.md"))]
 # Pages whose commands want a cluster, days, or a file of the reader's.
-NOT_HERE = {"cluster.md", "law-ensembles.md", "reproduction.md"}
+NOT_HERE = {"cluster.md", "law-ensembles.md", "reproduction-figures.md"}
 # Counts of a study that take minutes, and what is run in their place.
 FEWER = {
     **{"samples = 10": "samples = 2", "count = 6": "count = 2", "--samples 100": "--samples 3"},

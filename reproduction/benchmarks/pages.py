@@ -7,13 +7,15 @@
 The pages show the files in reproduction/data: averages of ensembles (``figN.nc``, written by ``roughcontact thesis
 figN --scale thesis --out DIR``), results of figures that are computed here in seconds (``simple.json``), captions
 (``captions.toml``), and the pictures. A file that does not exist is reported as missing.
-docs/evidence/reproduction.md holds findings and claims, reproduction/figures.md the figures;
-reproduction/verdicts.md compares former verdicts (``former.toml``) with the present ones.
+docs/evidence/reproduction.md holds findings and a dozen claims, reproduction-claims.md beside it all claims, of
+docs/data/reproduction/claims.csv, and reproduction-figures.md the figures. reproduction/verdicts.md compares former
+verdicts (``first-edition.csv`` and ``former.toml``) with the present ones; ``changed.toml`` has the reasons.
 """
 
 from __future__ import annotations
 
 import argparse
+import csv
 import io
 import json
 import sys
@@ -22,6 +24,7 @@ from dataclasses import asdict, replace
 from pathlib import Path
 from typing import Any, cast
 
+import claim_pages
 import law_verdicts
 import numpy as np
 import page_texts
@@ -51,8 +54,11 @@ from roughcontact_thesis.verdict import Verdict
 HOME = Path(__file__).resolve().parent.parent
 FOLDER = HOME / "data"
 PICTURES = HOME / "pictures"
-PAGE = HOME.parent / "docs" / "evidence" / "reproduction.md"
-FIGURES_PAGE = HOME / "figures.md"
+DOCS = HOME.parent / "docs"
+PAGE, CLAIMS_PAGE, FIGURES_PAGE = (
+    DOCS / "evidence" / f"reproduction{part}.md" for part in ("", "-claims", "-figures")
+)
+CLAIMS = DOCS / "data" / "reproduction" / "claims.csv"
 CHANGES = HOME / "verdicts.md"
 DPI = 160  # of the pictures
 FEW = 8  # values that are listed one by one
@@ -75,8 +81,9 @@ def _by_larger(entry: Entry, larger: list[law_verdicts.Larger]) -> Entry:
     """Return what is said about a figure, with claims that it leaves open judged by larger ensembles."""
     judged = tuple(law_verdicts.judged(verdict, entry.name, larger) for verdict in entry.verdicts)
     finding = entry.finding
-    if finding and judged and judged[0].word != entry.verdicts[0].word:
-        finding += f" By larger ensembles, this claim {judged[0].word}: {judged[0].claim}."
+    decided = [now for now, own in zip(judged, entry.verdicts, strict=True) if now.word != own.word]
+    if finding and decided:
+        finding += f' A larger ensemble decides "{decided[0].claim}": {decided[0].word}.'
     return replace(entry, verdicts=judged, finding=finding)
 
 
@@ -180,7 +187,17 @@ def _time(seconds: float) -> str:
 
 def page(folder: Path = FOLDER) -> str:
     """Return the page of the documentation, of what is in `folder`."""
-    return page_texts.page(entries(folder))
+    return claim_pages.page(entries(folder))
+
+
+def claims(folder: Path = FOLDER) -> str:
+    """Return the data file of all claims, of what is in `folder`."""
+    return claim_pages.claims_file(entries(folder))
+
+
+def claims_page(data: Path = CLAIMS) -> str:
+    """Return the page of all claims, of their data file."""
+    return claim_pages.claims_page(data.read_text(encoding="utf-8"))
 
 
 def figures_page(folder: Path = FOLDER) -> str:
@@ -191,8 +208,12 @@ def figures_page(folder: Path = FOLDER) -> str:
 
 def changes(folder: Path = FOLDER) -> str:
     """Return the page about what became of former verdicts."""
-    former = tomllib.loads((folder / "former.toml").read_text(encoding="utf-8"))
-    return page_texts.changes_page(entries(folder), former["row"])
+    former, changed = (
+        tomllib.loads((folder / f"{name}.toml").read_text(encoding="utf-8"))["row"]
+        for name in ("former", "changed")
+    )
+    first = csv.DictReader(io.StringIO((folder / "first-edition.csv").read_text(encoding="utf-8")))
+    return page_texts.changes_page(entries(folder), former, [*first], changed)
 
 
 # What makes it
@@ -248,9 +269,14 @@ def save(picture: Figure, path: Path) -> int:
 
 def write() -> None:
     """Write all pages, of what is there."""
-    PAGE.write_text(page(), encoding="utf-8", newline="\n")
-    FIGURES_PAGE.write_text(figures_page(), encoding="utf-8", newline="\n")
-    CHANGES.write_text(changes(), encoding="utf-8", newline="\n")
+    for path, written in (
+        (PAGE, page),
+        (CLAIMS, claims),
+        (CLAIMS_PAGE, claims_page),
+        (FIGURES_PAGE, figures_page),
+        (CHANGES, changes),
+    ):
+        path.write_text(written(), encoding="utf-8", newline="\n")
 
 
 def main() -> None:

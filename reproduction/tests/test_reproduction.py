@@ -1,5 +1,6 @@
 """The page about the thesis' figures says what the exported averages say."""
 
+import csv
 import importlib.util
 import re
 import shutil
@@ -15,7 +16,7 @@ from roughcontact_thesis.figures import FIGURES, is_ensemble, module, verdicts
 
 HOME = Path(__file__).parent.parent
 FOLDER = HOME / "data"
-PAGE = HOME.parent / "docs" / "evidence" / "reproduction.md"
+PAGES = HOME.parent / "docs" / "evidence"
 ENSEMBLES = [name for name in FIGURES if is_ensemble(module(name))]
 SIMPLE = [name for name in FIGURES if name not in ENSEMBLES]
 
@@ -30,27 +31,27 @@ def script():
     spec.loader.exec_module(found)
     yield found
     for name in [*sys.modules]:
-        if name.startswith("law_") or name in (spec.name, "page_texts"):
+        if name.startswith("law_") or name in (spec.name, "claim_pages", "page_texts"):
             del sys.modules[name]
     sys.path.remove(str(HOME / "benchmarks"))
 
 
 @pytest.fixture(scope="module")
 def page():
-    """Return the page of the documentation: findings and claims."""
-    return PAGE.read_text(encoding="utf-8")
+    """Return the first page: findings and a dozen claims."""
+    return (PAGES / "reproduction.md").read_text(encoding="utf-8")
 
 
 @pytest.fixture(scope="module")
 def figures():
     """Return the page of the figures."""
-    return (HOME / "figures.md").read_text(encoding="utf-8")
+    return (PAGES / "reproduction-figures.md").read_text(encoding="utf-8")
 
 
 @pytest.fixture
 def bare(tmp_path):
     """Return a folder without averages."""
-    for name in ("captions.toml", "former.toml", "simple.json", "unjudged.toml"):
+    for name in ("captions.toml", "simple.json", "unjudged.toml"):
         shutil.copy(FOLDER / name, tmp_path)
     return tmp_path
 
@@ -67,6 +68,9 @@ def heading(name):
 def test_the_pages_are_what_the_script_writes(script, page, figures):
     assert script.page() == page
     assert script.figures_page() == figures
+    data = script.claims()
+    assert script.CLAIMS.read_text(encoding="utf-8") == data
+    assert script.claims_page() == script.CLAIMS_PAGE.read_text(encoding="utf-8")
     assert script.changes() == script.CHANGES.read_text(encoding="utf-8")
 
 
@@ -74,7 +78,25 @@ def test_the_page_begins_with_its_findings(script, page):
     findings = page.split("## What is found\n")[1].split("\n## ")[0]
     assert re.findall(r"^(\d)\. ", findings, re.M) == list("12345")
     assert findings.count("![") == 1
-    assert page.index("## What is found") < page.index("## Claims")
+    assert page.index("## What is found") < page.index("## A dozen claims")
+    assert len(page.splitlines()) <= 200
+
+
+def test_the_first_page_has_a_dozen_claims_that_all_have_a_row(script, page):
+    rows = page.split("## A dozen claims\n")[1].split("\n## ")[0]
+    assert rows.count("](reproduction-figures.md#") == len(script.claim_pages.DOZEN) == 12
+    named = [each.claim for entry in script.entries() for each in entry.verdicts]
+    assert all(named.count(claim) == 1 for claim in script.claim_pages.DOZEN)
+
+
+def test_a_row_has_a_verdict_for_each_range_that_is_computed(script):
+    with script.CLAIMS.open(encoding="utf-8") as file:
+        rows = {row["claim"]: row for row in csv.DictReader(file)}
+    lines = rows["alpha = 1/(H + 1) for lines"]
+    assert lines["H 0.25 to 1.75"].startswith("holds: ")
+    assert lines["H above 2"].startswith("does not hold: ")
+    assert rows["the rms height of a surface grows as lambda^H with its size"]["H 0.25 to 1.75"] == ""
+    assert {row["kind"] for row in rows.values()} == set(script.claim_pages._KINDS)
 
 
 def test_every_claim_is_quoted_and_says_what_decided(script):
@@ -100,6 +122,16 @@ def test_every_change_of_a_verdict_is_explained(script):
         assert row["why"] or words == {before}, row["claim"]
 
 
+def test_every_change_since_the_first_edition_has_a_reason(script):
+    now = {(each.name, one.claim): (one.word, one.kind) for each in script.entries() for one in each.verdicts}
+    with (FOLDER / "first-edition.csv").open(encoding="utf-8") as file:
+        first = {(row["figure"], row["claim"]): (row["verdict"], row["kind"]) for row in csv.DictReader(file)}
+    changed = tomllib.loads((FOLDER / "changed.toml").read_text(encoding="utf-8"))["row"]
+    named = {(row["figure"], claim) for row in changed for claim in (*row["before"], *row["now"])}
+    assert named == {each for each in now | first if now.get(each) != first.get(each)}
+    assert all(row["why"] for row in changed)
+
+
 def test_every_figure_of_the_thesis_has_a_section_or_a_reason(script):
     told = tomllib.loads((FOLDER / "unjudged.toml").read_text(encoding="utf-8"))["figures"]
     without = [int(number) for each in told for number in each["figure"].split(", ")]
@@ -111,7 +143,7 @@ def test_every_figure_has_a_section_with_its_picture(figures):
     assert re.findall(r"^## ((?:Figure|Outlook,) .+)$", figures, re.M) == [heading(name) for name in FIGURES]
     for name in FIGURES:
         told = section(figures, name)
-        assert ("**Missing:**" in told) != (f"(pictures/{name}.png)" in told)
+        assert ("**Missing:**" in told) != (f"(../../reproduction/pictures/{name}.png)" in told)
 
 
 def test_what_was_not_computed_is_said_to_be_missing(script, bare):

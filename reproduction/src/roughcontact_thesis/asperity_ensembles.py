@@ -42,7 +42,7 @@ HIGHEST = 0.07  # force F/(E* h L)
 NEAR = 0.1  # of an exponent: what counts as agreement with a law
 _CLASSICAL, _SLOPE = "#0072b2", "#2e8b2e"
 CHOSEN = (
-    "in place of the data of others: summits of surfaces of our own by the inverse Fourier transform, points higher "
+    "in place of the data of others: summits of surfaces by the inverse Fourier transform, points higher "
     "than their eight neighbours, as spheres of their own curvature that push each other down like point forces",
     f"{POINTS['thesis']} x {POINTS['thesis']} points; on the small scale {POINTS['small']} x {POINTS['small']}",
     f"slopes from {SPOTS:g} summits in contact on the average up to a force of {HIGHEST:g}",

@@ -61,7 +61,7 @@ CHOSEN = (
         f"{each.name}: field {each.field * LENGTH * 1e6:g} µm, pixel {each.pixel * LENGTH / POINTS * 1e6:.2g} µm"
         for each in INSTRUMENTS
     ),
-    "bands: from a third of the field (all of it where it is the period) to eight pixels, or to where the rms "
+    "bands: from a third of the field (the whole field where it is the period) to eight pixels, or to where the rms "
     "curvature of the known law is a quarter of the tip's",
 )
 SIZE = (drawing.COLUMN, 3.9)

@@ -20,7 +20,7 @@ __all__ = ["averages", "draw", "studies", "verdicts"]
 
 TITLE = "scatter of the stiffness over surfaces and over lines of the same type"
 CHOSEN = (
-    "standard deviation over mean of the stiffness at each force; surfaces and lines differ in their phases alone",
+    "standard deviation over mean of the stiffness at each force; surfaces and lines differ only in their phases",
     "surfaces of figure 27; lines of 2^13 points",
     "faint where the mean is below the stiffness of 20 cells or springs: there single cells decide",
 )

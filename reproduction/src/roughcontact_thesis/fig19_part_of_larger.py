@@ -16,7 +16,7 @@ import roughcontact as rc
 from roughcontact.plot.drawing.raster import box
 from roughcontact.validation import Array
 from roughcontact_thesis import drawing
-from roughcontact_thesis.ruling import exactly
+from roughcontact_thesis.ruling import exactly, in_part
 from roughcontact_thesis.verdict import Verdict, Verdicts, series
 
 __all__ = ["Gedankenexperiment", "case", "draw", "verdicts"]
@@ -26,6 +26,7 @@ POINTS = 256
 HURST = 0.7
 RMS = 0.01  # of the large indenter, over its side
 SCALE = 2  # lambda
+NEAR = 0.1  # of a ratio of rms heights
 PARTS = (1, 2, 4, 8, 16, 32)  # sides of the large square over those of its parts
 SEED = 30
 CHOSEN = (
@@ -105,8 +106,10 @@ def verdicts(data: Gedankenexperiment) -> Verdicts:
     expected = np.zeros_like(large.contact)
     expected[row : row + POINTS // SCALE, column : column + POINTS // SCALE] = small.contact
     same = np.array_equal(large.contact, expected)
-    ratio = float(data.rms[0] / data.rms[PARTS.index(SCALE)])
-    halvings = np.log2(data.rms[:-1] / data.rms[1:])
+    ratios = data.rms[:-1] / data.rms[1:]
+    away = ratios / 2**HURST - 1
+    near = np.flatnonzero(np.abs(away) < NEAR)
+    trigger = f"{away[0]:+.0%} between the whole and its halves"
     yield Verdict(
         "a part and the whole have the same contact, force and stiffness at one depth",
         "all physical quantities remain unchanged, that is to say, all quantities that still have dimensions.",
@@ -120,10 +123,14 @@ def verdicts(data: Gedankenexperiment) -> Verdicts:
         "the rms height of a surface grows as lambda^H with its size",
         "we know that for the rms roughness of both we have h_2 = λ^H h_1.",
         "section 4.4.2, eq. 4.27",
-        f"{ratio:.3f} in place of {SCALE**HURST:.3f} on the mean over all places, as the longest wave is the side of "
-        f"the large one; between parts halved again and again the exponent is {series(halvings, '.2f')} in place of "
-        f"{HURST:g}",
-        exactly(bool(abs(ratio / SCALE**HURST - 1) < 0.1), "10%", f"{ratio / SCALE**HURST - 1:+.0%}"),
+        f"{ratios[0]:.3f} in place of {2**HURST:.3f} on the mean over all places, as the longest wave is the side of "
+        f"the large one; between parts halved again and again the exponent is {series(np.log2(ratios), '.2f')} in "
+        f"place of {HURST:g}",
+        in_part(
+            f"for parts of L/{PARTS[near[0]]} and smaller", f"{NEAR:.0%} from one size to its half", trigger
+        )
+        if near.size
+        else exactly(False, f"{NEAR:.0%}", trigger),
     )
 
 

@@ -10,7 +10,7 @@ from roughcontact.statistics.fit_window import force_window
 from roughcontact.theory.springs import gaussian_heights
 from roughcontact_thesis import drawing, line_ensembles
 from roughcontact_thesis.figures import Scale, Studies
-from roughcontact_thesis.ruling import VICINITY, Ruling, exactly, middle, ranged, ruled
+from roughcontact_thesis.ruling import VICINITY, Ruling, exactly, ranged, ruled, ruled_in_middle
 from roughcontact_thesis.verdict import Verdict, Verdicts, series
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
@@ -93,7 +93,7 @@ def verdicts(averages: xarray.Dataset) -> Verdicts:
         "eq. 4.53 with α = (H + 1)^-1.",
         "section 4.5.2",
         f"N = 2^11: {ranged(law, spread, NEAR)}; {said}",
-        ruled(middle(law), middle(spread), NEAR),
+        ruled_in_middle(law, spread, NEAR),
     )
     yield Verdict(
         "the power law 1/(H + 1) ends at H = 0 and 2",
@@ -141,7 +141,8 @@ def _modes(low: xarray.Dataset, common: xarray.DataArray) -> Verdict:
         "section 4.5.2",
         f"fitted above 20 springs {_two(low['exponent'].mean('hurst'))} for N = 2^9, 2^11; at forces from "
         f"{COMMON[0]:g} to {COMMON[1]:g} {_two(common)}, both ± {float(low['common_error'].mean()):.3f}, and there the "
-        f"stiffness is that of independent Gaussian heights, which knows no N, to {float(abs(off).max()):.1%}. With N "
-        "grows the window of a fit, towards lower forces, where the curve is steeper",
+        "stiffness is that of independent Gaussian heights, which does not depend on N, to "
+        f"{float(abs(off).max()):.1%}. With N grows the window of a fit, towards lower forces, where the curve is "
+        "steeper",
         rule,
     )

@@ -89,8 +89,8 @@ def verdicts(averages: xarray.Dataset) -> Verdicts:
         "section 4.5.2, eq. 4.73",
         f"{series(averages['exponent'])} for N = 2^{int(np.log2(points[0]))} to 2^{int(np.log2(points[-1]))}, "
         f"{series(law)} by the law, H = {HURST:g}, {averages.attrs['lines']} lines each. Its cause is another: "
-        f"independent Gaussian heights, whose stiffness knows no N, give {series(averages['white'])} in the same "
-        f"windows, and at a force of {float(averages['force']):.2g} the stiffness is the same for all N to "
+        f"independent Gaussian heights, whose stiffness does not depend on N, give {series(averages['white'])} in "
+        f"the same windows, and at a force of {float(averages['force']):.2g} the stiffness is the same for all N to "
         f"{spread:.1%} "
         f"(errors up to {float(relative.max()):.1%})",
         ruled(averages["exponent"] - law, averages["exponent_error"], NEAR, "+.3f"),

@@ -17,7 +17,7 @@ from roughcontact_thesis.figures import Scale, Studies
 from roughcontact_thesis.ruling import Ruling, ruled
 from roughcontact_thesis.verdict import Verdict, Verdicts, series
 
-__all__ = ["averages", "draw", "studies", "verdicts"]
+__all__ = ["averages", "draw", "grown", "studies", "verdicts"]
 
 TITLE = "exponent of the stiffness for low Hurst exponents on several numbers of cells"
 COMMON = (0.025, 0.07)  # forces at which 257 x 257 cells are resolved for all H below 0.2
@@ -91,7 +91,7 @@ def verdicts(averages: xarray.Dataset) -> Verdicts:
         "section 4.5.2, fig. 26",
         f"{_means(low['exponent'])} on {_sizes(averages)} cells for H < -0.2, each in the window above its 20 cells, "
         f"errors about {float(low['exponent_error'].mean()):.3f}; surfaces a value: {counts}",
-        _grows(low["exponent"], low["exponent_error"]),
+        _grown(low["exponent"], low["exponent_error"]),
     )
     yield Verdict(
         "it depends on the number of scales, not on the forces of the fit",
@@ -101,7 +101,7 @@ def verdicts(averages: xarray.Dataset) -> Verdicts:
         f"{_means(low['common_exponent'])} where all are fitted between {COMMON[0]:g} and {COMMON[1]:g}, errors about "
         f"{float(low['common_exponent_error'].mean()):.3f}; stiffness at {FORCE:g} on the finest grid "
         f"{float(grid.mean()):+.1%} from the coarsest",
-        _grows(low["common_exponent"], low["common_exponent_error"]),
+        _grown(low["common_exponent"], low["common_exponent_error"]),
     )
     yield Verdict(
         "a constant exponent of surfaces below H = 0",
@@ -139,11 +139,15 @@ def _sizes(averages: xarray.Dataset) -> str:
     return ", ".join(f"{points}²" for points in averages["points"].to_numpy())
 
 
-def _grows(exponents: xarray.DataArray, errors: xarray.DataArray) -> Ruling:
+def _grown(exponents: xarray.DataArray, errors: xarray.DataArray) -> Ruling:
     """Return whether the exponent is another on the finest grid than on the coarsest."""
     apart = float((exponents.isel(points=-1) - exponents.isel(points=0)).mean())
     # Samples are paired over H: the error of the mean is at most the mean of the errors.
-    error = float(np.hypot(errors.isel(points=-1), errors.isel(points=0)).mean())
+    return grown(apart, float(np.hypot(errors.isel(points=-1), errors.isel(points=0)).mean()))
+
+
+def grown(apart: float, error: float) -> Ruling:
+    """Return whether two exponents that are `apart` are different."""
     told, words = f"{apart:+.3f} ± {error:.3f}", f"a difference; none below {NEAR:g}"
     if abs(apart) > 3 * error:
         return Ruling("holds", words, trigger=told)

@@ -16,10 +16,10 @@ from roughcontact_thesis.averaging import converged, means, without_parameters
 from roughcontact_thesis.ensembles import coarse_square_study, curve_averages, laws, square_study
 from roughcontact_thesis.figures import Scale, Studies
 from roughcontact_thesis.line_ensembles import line_averages, line_studies
-from roughcontact_thesis.ruling import middle, ranged, ruled, undecided
+from roughcontact_thesis.ruling import VICINITY, middle, ranged, ruled, ruled_in_middle, undecided
 from roughcontact_thesis.verdict import Verdict, Verdicts, beside, counted, series, spanned
 
-__all__ = ["averages", "draw", "studies", "verdicts"]
+__all__ = ["averages", "changes", "draw", "studies", "verdicts"]
 
 TITLE = "prefactor of the stiffness against the Hurst exponent, by both methods, and the stiffness at three forces"
 FORCES = (0.003, 0.015, 0.07)
@@ -113,7 +113,7 @@ def verdicts(averages: xarray.Dataset) -> Verdicts:
         "A fairly good approximation for ζ is given by ζ = 1.7/(H + 1).",
         "section 4.5.3, fig. 28",
         f"{ranged(off, spread, FAIR)}; {counted(averages, 'surfaces')} a value",
-        ruled(middle(off), middle(spread), FAIR),
+        ruled_in_middle(off, spread, FAIR),
     )
     for name, claim, quote, source in LAWS:
         away, uncertain = _off(found, name)
@@ -122,15 +122,18 @@ def verdicts(averages: xarray.Dataset) -> Verdicts:
             quote,
             source,
             f"{told}: {ranged(away, uncertain, FAIR)}",
-            ruled(middle(away), middle(uncertain), FAIR),
+            ruled_in_middle(away, uncertain, FAIR),
         )
     yield Verdict(
         "lines of the same rms height have the stiffness of surfaces",
-        "Studies conducted with the method of dimensionality reduction confirm these results.",
-        "abstract",
+        "A given threedimensional contact problem can be mapped onto an equivalent onedimensional system, while "
+        "preserving all interdependencies between normal force F_N, indentation depth d, contact stiffness k_N",
+        "section A.2; for rough surfaces by one rms roughness, eqs A.73 to A.75",
         f"surfaces over lines, {told}: {ranged(apart, both, NEAR)}",
-        ruled(middle(apart), middle(both), NEAR),
+        ruled_in_middle(apart, both, NEAR),
+        "method",
     )
+    yield _smooth(found)
     yield _twenty_cells(averages, found)
     if "prefactor_geometric" in found:
         yield _averaging(found)
@@ -148,11 +151,11 @@ def verdicts(averages: xarray.Dataset) -> Verdicts:
 def findings(averages: xarray.Dataset) -> str:
     """Return in a sentence how well the law as a whole gives the stiffness."""
     found = averages.dropna("hurst", subset=["prefactor"])
-    whole, slip = (beside(middle(_off(found, name)[0])) for name in ("law", "slip"))
+    whole = beside(middle(_off(found, "law")[0]))
     return (
         "In the same range of H, at forces F/(E\\* h L) of "
         f"{series(found['force'], 'g')}, the mean stiffness lies {whole} the whole law of the thesis, k/(E\\* L) = "
-        f"1.7/(H + 1) (F/(E\\* h L))^(1/(H + 1)), and {slip} its other fit, on which eq. 7.7 is based."
+        "1.7/(H + 1) (F/(E\\* h L))^(1/(H + 1))."
     )
 
 
@@ -169,12 +172,6 @@ LAWS = (
         "For fractal rough surfaces the dependency reads k/(E*L) = 1.7/(H + 1) (F/(E*hL))^(1/(H + 1))",
         "eqs 5.5 and 7.3",
     ),
-    (
-        "slip",
-        "k = 0.2055 (F/0.086)^(1/(H + 1)), the fit behind eq. 7.7",
-        "Z is a constant Z = (H + 1)/(0.2055 H) (0.086 Θ)^(1/(H+1))",
-        "chapter 7, eq. 7.7: zeta = 0.2055 * 0.086^(-1/(H + 1))",
-    ),
 )
 
 
@@ -183,9 +180,7 @@ def _off(found: xarray.Dataset, name: str) -> tuple[xarray.DataArray, xarray.Dat
     hurst, force = found["hurst"], found["force"]
     alpha = 1 / (hurst.where(hurst > 0) + 1)
     relative = found["stiffness_error"] / found["stiffness"]
-    if name == "slip":
-        law = 0.2055 * (force / 0.086) ** alpha
-    elif name == "law":
+    if name == "law":
         law = 1.7 * alpha * force**alpha
     else:
         law = 1.7 * alpha * force ** found["exponent"]
@@ -193,6 +188,32 @@ def _off(found: xarray.Dataset, name: str) -> tuple[xarray.DataArray, xarray.Dat
         relative = relative + abs(np.log(force)) * found["exponent_error"]
     ratio = found["stiffness"] / law
     return ratio - 1, relative * ratio
+
+
+def changes(stiffness: xarray.DataArray) -> xarray.DataArray:
+    """Return how much the stiffness differs from that of the highest Hurst exponent, beyond the vicinity of 2."""
+    smooth = stiffness.sel(hurst=slice(2 + VICINITY, None))
+    found: xarray.DataArray = smooth.isel(hurst=slice(None, -1)) / smooth.isel(hurst=-1, drop=True) - 1
+    return found
+
+
+def _smooth(found: xarray.Dataset) -> Verdict:
+    """Return whether the stiffness depends on the Hurst exponent above 2."""
+    away, relative = changes(found["stiffness"]), found["stiffness_error"] / found["stiffness"]
+    below = found["stiffness"].sel(hurst=[1.3, 1.9], method="nearest")
+    last = below["hurst"].to_numpy()
+    # Of the same phases: the error of a ratio is at most the sum of both.
+    error = (relative + relative.isel(hurst=-1, drop=True)).sel(hurst=away["hurst"])
+    return Verdict(
+        "only above H = 2 does the stiffness not depend on H",
+        "we will see later that only for H ≥ 2 will there be no more significant influence of H on the contact "
+        "behavior.",
+        "section 2.2",
+        f"from H = {2 + VICINITY:g} on {spanned(away, '+.1%')} from the stiffness at H = {found['hurst'][-1]:g}, at "
+        f"one force; from H = {last[0]:g} to {last[1]:g} it grows by "
+        f"{spanned(below.isel(hurst=1) / below.isel(hurst=0) - 1, '.0%')}",
+        ruled(away, error, NEAR),
+    )
 
 
 def _averaging(found: xarray.Dataset) -> Verdict:

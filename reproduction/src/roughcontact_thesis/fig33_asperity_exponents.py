@@ -15,7 +15,7 @@ from roughcontact_thesis.asperity_ensembles import (
     law_exponent,
     studies,
 )
-from roughcontact_thesis.ruling import ruled
+from roughcontact_thesis.ruling import exceeds, ruled
 from roughcontact_thesis.verdict import Verdict, Verdicts, series
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
@@ -73,6 +73,22 @@ def verdicts(averages: xarray.Dataset) -> Verdicts:
         f"{series(exponents)} for D_f = {series(3 - hurst, '.1f')}, the law {series(law)}, each ± "
         f"{float(averages['exponent_error'].max()):.3f} or less, from {int(averages['samples'])} surfaces",
         ruled(exponents / law - 1, averages["exponent_error"] / law, NEAR),
+        "theory",
+    )
+    smooth, rough = (averages.isel(hurst=place) for place in (-1, 0))
+    yield Verdict(
+        "with interaction the law is less linear for H near 1 than for H near 0",
+        "The nonlinearity was discovered to be more pronounced for H ≈ 1 than for H ≈ 0.",
+        "section 4.6, of figs 31 and 32",
+        f"exponents {float(smooth['exponent']):.3f} at H = {float(smooth['hurst']):g} and "
+        f"{float(rough['exponent']):.3f} at H = {float(rough['hurst']):g}",
+        exceeds(
+            float(rough["exponent"] - smooth["exponent"]),
+            float(rough["exponent_error"] + smooth["exponent_error"]),
+            0.0,
+            "+.3f",
+            "a lower exponent near 1",
+        ),
         "theory",
     )
     alone, error = averages["independent_exponent"], averages["independent_exponent_error"]

@@ -122,4 +122,5 @@ def verdicts(data: tuple[Roughness, ...]) -> Verdicts:
         f"above the highest tenth of the maxima the mean excess is {share:.2f} ± {error:.2f} of that above their "
         f"median, of an exponential distribution 1; {draws} surfaces of {points // cell}² cells, H = {HURST:g}",
         ruled(share - 1, error, 0.1),
+        "assumption",
     )

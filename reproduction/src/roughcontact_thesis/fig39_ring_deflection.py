@@ -23,7 +23,7 @@ NEAREST = 4e-3  # |r/a - 1| from which on the widths change the deflection by le
 SEED = 0
 CHOSEN = (
     f"computed: a load on a ring {WIDTH:g} a wide",
-    "approximation: eq. A.21, drawn far beyond the vicinity of the ring for which it is meant",
+    "approximation: eq. A.21, drawn far beyond the vicinity of the ring, for which it was derived",
 )
 SIZE = (drawing.PAGE, 2.9)
 

@@ -86,7 +86,7 @@ def draw(figure: Figure, data: tuple[Magnified, ...]) -> None:
 
 
 def verdicts(data: tuple[Magnified, ...]) -> Verdicts:
-    """Return how a magnified piece resembles its line, and what becomes of a square."""
+    """Return how a magnified piece resembles its line."""
     lags = POINTS // 32, POINTS // 128
     ratios = {
         one.hurst: one.second_difference(lags[0]) / (FACTOR**one.hurst * one.second_difference(lags[1]))
@@ -103,14 +103,4 @@ def verdicts(data: tuple[Magnified, ...]) -> Verdicts:
             bool(abs(worst - 1) < 0.05), "5%: the line has a longest and a shortest wave", f"{worst - 1:+.1%}"
         ),
         "method",
-    )
-    low = data[-1].hurst
-    square = FACTOR ** (low - 1)
-    yield Verdict(
-        "for H < 1 a square is magnified to a high rectangle",
-        "whereas for H < 1 the square would have to be magnified as a high rectangle.",
-        "section 2.2, caption of fig. 3",
-        f"by eq. 2.1 a square becomes {square:g} times as high as wide at H = {low:g}, a high rectangle a square",
-        exactly(bool(square > 1), "higher than wide", f"{square:g}"),
-        "misprint",
     )

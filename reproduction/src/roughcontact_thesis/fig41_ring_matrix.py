@@ -11,7 +11,7 @@ import roughcontact as rc
 from roughcontact.validation import Array
 from roughcontact_thesis import drawing
 from roughcontact_thesis.matrix_view import matrix_view
-from roughcontact_thesis.ruling import exactly
+from roughcontact_thesis.ruling import exactly, undecided
 from roughcontact_thesis.verdict import Verdict, Verdicts
 
 __all__ = ["case", "draw", "verdicts"]
@@ -50,4 +50,14 @@ def verdicts(data: Array) -> Verdicts:
         f"{condition[0] / RINGS:.1f} N",
         exactly(bool(condition[0] < 1e3), "1000, of 1e16"),
         "method",
+    )
+    yield Verdict(
+        "Polonsky and Keer's conjugate gradients converge for arbitrary surfaces",
+        "his methodology does not guarantee convergence due to the local relaxation step. In contrast Polonsky and "
+        "Keer [64] use the CG-method and find convergence for arbitrary surfaces.",
+        "section A.1.3",
+        "the thesis reports that they find it, not a proof. The method of that name in roughcontact has safeguards of "
+        "later papers; thousands of surfaces that converge, as in the page on robustness, are no guarantee either",
+        undecided("a finding of others without a proof", "a proof, or a surface without convergence"),
+        "theory",
     )

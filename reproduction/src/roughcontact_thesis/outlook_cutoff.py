@@ -16,7 +16,7 @@ from roughcontact.statistics.fit_window import CELLS
 from roughcontact.theory.persson_theory import persson
 from roughcontact_thesis import averaging, drawing
 from roughcontact_thesis.figures import Scale, Studies
-from roughcontact_thesis.ruling import middle, ranged, ruled, undecided
+from roughcontact_thesis.ruling import ranged, ruled, ruled_in_middle, undecided
 from roughcontact_thesis.verdict import Verdict, Verdicts, plus_minus, spanned
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
@@ -169,7 +169,7 @@ def verdicts(averages: xarray.Dataset) -> Verdicts:
         f"without the shortest octave of waves, L/{int(half['waves'])} to L/{int(whole['waves'])}: "
         f"{ranged(change, half['stiffness_change_error'], NEAR)}; k over that with all waves for other shortest waves: "
         f"{each}; {told}",
-        ruled(middle(change), middle(half["stiffness_change_error"]), NEAR),
+        ruled_in_middle(change, half["stiffness_change_error"], NEAR),
     )
     yield _area(at, fine, told)
 

@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 from roughcontact_thesis import averaging, drawing
 from roughcontact_thesis.averaging import exponential, logarithm
 from roughcontact_thesis.outlook_cutoff import studies
-from roughcontact_thesis.ruling import VICINITY, exceeds, middle, ranged, ruled
+from roughcontact_thesis.ruling import VICINITY, exceeds, ranged, ruled_in_middle
 from roughcontact_thesis.verdict import Verdict, Verdicts, counted, listed
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
@@ -117,24 +117,30 @@ def verdicts(averages: xarray.Dataset) -> Verdicts:
         f"{counted(averages)}, L from {waves[0]} to {waves[-1]} shortest waves, F from {WINDOW[0]:g} to {WINDOW[1]:g} "
         "E* h L"
     )
-    last = averages.isel(waves=-1)
-    factor = exponential(last["same_force"])
-    error = factor * last["same_force_error"]
     growth = listed(averages, "growth", "hurst", "+.3f")
-    yield Verdict(
-        "at a given Theta the size is not in the stiffness, nor in the way to gross slip",
-        "depends on the normal force in a power-law fashion, but does not depend on the system size.",
-        "chapter 7, eqs 7.2 and 7.6",
-        f"at one force F/(E* Theta), {ONE:g} E* h L of the smallest size, the largest is stiffer by "
-        f"{ranged(factor - 1, error, NEAR, '+.0%')}; at equal F/(E* h L) d ln zeta/d ln L = {growth}; {told}",
-        ruled(middle(factor - 1), middle(error), NEAR, "+.0%"),
-    )
+    sizes = {
+        int(np.flatnonzero(waves == 4 * waves[0])[0]): "a square of four times the side",
+        -1: "the largest square",
+    }
+    for place, size in sizes.items():
+        one = averages.isel(waves=place)
+        factor = exponential(one["same_force"])
+        error = factor * one["same_force_error"]
+        yield Verdict(
+            f"at a given Theta and force {size} has the same stiffness",
+            "depends on the normal force in a power-law fashion, but does not depend on the system size.",
+            "chapter 7, eqs 7.2 and 7.6",
+            f"at one force F/(E* Theta), {ONE:g} E* h L of the smallest size, one of {waves[place] / waves[0]:g} times "
+            f"its side is stiffer by {ranged(factor - 1, error, NEAR, '+.0%')}; at equal F/(E* h L) d ln zeta/d ln L = "
+            f"{growth}; {told}",
+            ruled_in_middle(factor - 1, error, NEAR, "+.0%"),
+        )
     yield Verdict(
         "one zeta for all forces",
         "k/E* = ζ (F/(E*Θ))^(1/(H + 1))",
         "chapter 7, eq. 7.2",
         f"d ln zeta/d ln F = {listed(averages, 'steepness', 'hurst', '+.2f')}; {told}",
-        ruled(middle(averages["steepness"]), middle(averages["steepness_error"]), 0.1, "+.2f"),
+        ruled_in_middle(averages["steepness"], averages["steepness_error"], 0.1, "+.2f"),
     )
     near = averages.isel(hurst=np.flatnonzero(averages["hurst"] <= VICINITY))
     low = near.isel(waves=-1)

@@ -15,7 +15,7 @@ from roughcontact.validation import Array
 from roughcontact_thesis import averaging, drawing
 from roughcontact_thesis.averaging import RMS
 from roughcontact_thesis.figures import Scale, Studies
-from roughcontact_thesis.ruling import middle, ruled
+from roughcontact_thesis.ruling import ruled, ruled_in_middle
 from roughcontact_thesis.verdict import Verdict, Verdicts, counted, listed, spanned
 
 __all__ = ["averages", "draw", "studies", "verdicts"]
@@ -187,7 +187,7 @@ def verdicts(averages: xarray.Dataset) -> Verdicts:
     def by_law(claim: str, quote: str, source: str, law: str) -> Verdict:
         each = ((spanned(off[law].sel(hurst=h), "+.0%"), h) for h in off[law]["hurst"].values)
         found = ", ".join(f"{spread} from it at H = {h:g}" for spread, h in each)
-        rule = ruled(middle(off[law]), middle(errors[law]), FAIR)
+        rule = ruled_in_middle(off[law], errors[law], FAIR)
         return Verdict(claim, quote, source, f"{found}; {told}", rule)
 
     yield Verdict(

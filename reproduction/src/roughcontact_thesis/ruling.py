@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, field, replace
 from typing import Any, Literal, TypeVar
 
 import numpy as np
@@ -18,12 +19,14 @@ __all__ = [
     "VICINITY",
     "Ruling",
     "Word",
+    "by_range",
     "exactly",
     "exceeds",
     "in_part",
     "middle",
     "ranged",
     "ruled",
+    "ruled_in_middle",
     "undecided",
 ]
 
@@ -46,6 +49,7 @@ RANGES = {
 """Ranges of the Hurst exponent; what lies on a border belongs to the middle one, else to the vicinity."""
 _MIDDLE = f"{_LOW:g} to {_HIGH:g}"
 _ROUND = 1e-9
+_HURST = ("hurst", "line_hurst")
 _FORMS = {
     "hurst": "H = {:.2f}",
     "line_hurst": "H = {:.2f}",
@@ -76,6 +80,8 @@ class Ruling:
         The number that decided.
     part : str
         Where it holds, if it does so in part.
+    ranges : dict
+        Verdict and deviations in each of the `RANGES` of the Hurst exponent that has some.
     """
 
     word: Word
@@ -83,6 +89,7 @@ class Ruling:
     span: str = ""
     trigger: str = ""
     part: str = ""
+    ranges: dict[str, str] = field(default_factory=dict)
 
     @property
     def words(self) -> str:
@@ -149,6 +156,63 @@ def ruled(
     """
     away = deviation if isinstance(deviation, xarray.DataArray) else xarray.DataArray(np.asarray(deviation))
     errors = error if isinstance(error, xarray.DataArray) else xarray.DataArray(np.asarray(error))
+    found = _ruled(away, errors, tolerance, form, words, above)
+    return replace(found, ranges=by_range(away, errors, tolerance, form, above=above))
+
+
+def ruled_in_middle(
+    deviation: xarray.DataArray, error: xarray.DataArray, tolerance: float, form: str = "+.1%"
+) -> Ruling:
+    """Return the ruling on Hurst exponents from 0.25 to 1.75, with what is found in the other ranges."""
+    found = _ruled(middle(deviation), middle(error), tolerance, form)
+    return replace(found, ranges=by_range(deviation, error, tolerance, form))
+
+
+def by_range(
+    deviation: xarray.DataArray,
+    error: xarray.DataArray,
+    tolerance: float,
+    form: str = "+.1%",
+    *,
+    above: bool = False,
+) -> dict[str, str]:
+    """Return verdict and deviations in words for every range of the Hurst exponent that has some."""
+    found = _each_range(deviation, error, tolerance, form, above)
+    return {name: f"{word}: {numbers}" for name, numbers, word in found}
+
+
+def ranged(deviation: xarray.DataArray, error: xarray.DataArray, tolerance: float, form: str = "+.1%") -> str:
+    """Return the deviations in every range of the Hurst exponent, each with its own verdict, in words."""
+    found = _each_range(deviation, error, tolerance, form)
+    return "; ".join(f"{numbers} for H {name} ({word})" for name, numbers, word in found)
+
+
+def _each_range(
+    deviation: xarray.DataArray, error: xarray.DataArray, tolerance: float, form: str, above: bool = False
+) -> Iterator[tuple[str, str, Word]]:
+    """Yield each range of the Hurst exponent with its deviations in words and its verdict."""
+    dim = next((name for name in _HURST if name in deviation.dims and name in deviation.coords), None)
+    if dim is None:
+        return
+    error = error.broadcast_like(deviation)
+    for name in RANGES:
+        inside = {dim: np.flatnonzero(_of(deviation[dim].to_numpy(), name))}
+        one = deviation.isel(inside)
+        values = one.to_numpy()
+        values = values[np.isfinite(values)]
+        if values.size:
+            ends = dict.fromkeys(f"{each:{form}}" for each in (values.min(), values.max()))
+            yield name, " to ".join(ends), _ruled(one, error.isel(inside), tolerance, form, above=above).word
+
+
+def _ruled(
+    away: xarray.DataArray,
+    errors: xarray.DataArray,
+    tolerance: float,
+    form: str,
+    words: str = "",
+    above: bool = False,
+) -> Ruling:
     if not away.dims and errors.dims:
         away = away + 0 * errors
     away, errors = xarray.broadcast(away, errors)
@@ -183,20 +247,6 @@ def ruled(
     if part:
         return Ruling("holds in part", told, span, f"outside elsewhere: {trigger}", part)
     return Ruling("does not hold", told, span, trigger)
-
-
-def ranged(deviation: xarray.DataArray, error: xarray.DataArray, tolerance: float, form: str = "+.1%") -> str:
-    """Return the deviations in every range of the Hurst exponent, each with its own verdict, in words."""
-    said = []
-    for name in RANGES:
-        inside = np.flatnonzero(_of(deviation["hurst"].to_numpy(), name))
-        one = deviation.isel(hurst=inside)
-        values = one.to_numpy()
-        values = values[np.isfinite(values)]
-        if values.size:
-            word = ruled(one, error.isel(hurst=inside), tolerance, form).word
-            said.append(f"{values.min():{form}} to {values.max():{form}} for H {name} ({word})")
-    return "; ".join(said)
 
 
 def _sides(
@@ -238,7 +288,7 @@ def _labels(values: xarray.DataArray) -> list[str]:
 
 def _along(values: xarray.DataArray) -> str | None:
     """Return the dimension of Hurst exponents, or another one that has values."""
-    for name in ("hurst", "line_hurst"):
+    for name in _HURST:
         if name in values.dims:
             return name
     named = [str(dim) for dim in values.dims if dim in values.coords and dim in _FORMS]
@@ -247,7 +297,7 @@ def _along(values: xarray.DataArray) -> str | None:
 
 def _span(values: xarray.DataArray) -> str:
     along = _along(values)
-    if along not in ("hurst", "line_hurst") or not values.sizes[along]:
+    if along not in _HURST or not values.sizes[along]:
         return ""
     hurst = values[along].to_numpy()
     low, high = float(hurst.min()), float(hurst.max())
@@ -266,7 +316,7 @@ def _part(values: xarray.DataArray, there: Any, sure: Any) -> str:
     others = tuple(n for n in range(values.ndim) if n != axis)
     good = every.reshape(values.shape).all(axis=others) & seen.any(axis=others)
     places = values[along].to_numpy()
-    if along not in ("hurst", "line_hurst"):
+    if along not in _HURST:
         return ", ".join(_FORMS[along].format(each) for each in places[good])
     turns = np.flatnonzero(np.diff(np.concatenate([[False], good, [False]]).astype(int)))
     runs = zip(turns[::2], turns[1::2] - 1, strict=True)

@@ -26,9 +26,9 @@ __all__ = [
     "spanned",
 ]
 
-Kind = Literal["claim", "method", "misprint", "theory", "answer"]
-"""A claim about rough contacts; one about definitions and methods; a printed number or formula; a theory of others;
-or an answer to a question that the thesis asks."""
+Kind = Literal["claim", "assumption", "method", "misprint", "theory", "answer"]
+"""A claim about rough contacts; an assumption that the thesis states as one; a claim about definitions and methods; a
+printed number or formula; a theory of others; or an answer to a question that the thesis asks."""
 
 
 @dataclass(frozen=True, slots=True)

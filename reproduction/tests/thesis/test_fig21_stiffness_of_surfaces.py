@@ -21,10 +21,11 @@ def data():
 
 
 def test_the_plateau_and_the_power_law_are_read(data):
-    plateau, law = verdicts(fig21, data)
+    plateau, law, shape = verdicts(fig21, data)
     assert plateau.found.startswith("1.1500")
     assert plateau.word == "holds"
     assert law.word == "holds"
+    assert shape.word == "not decided"
     assert "1.00 (H = 0)" in law.found
     # A curve that bends by a tenth is no power law.
     bent = data.assign(stiffness=data["stiffness"] * (1 + 0.1 * np.sin(np.log(data["force"]))))

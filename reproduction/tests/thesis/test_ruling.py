@@ -4,7 +4,17 @@ import numpy as np
 import pytest
 import xarray
 
-from roughcontact_thesis.ruling import RANGES, exactly, exceeds, in_part, middle, ranged, ruled, undecided
+from roughcontact_thesis.ruling import (
+    RANGES,
+    exactly,
+    exceeds,
+    in_part,
+    middle,
+    ranged,
+    ruled,
+    ruled_in_middle,
+    undecided,
+)
 
 HURST = [-0.5, -0.25, 0.0, 0.25, 1.0, 1.75, 2.0, 2.25, 2.5]
 
@@ -66,11 +76,24 @@ def test_only_what_lies_above_may_count():
 def test_every_hurst_exponent_belongs_to_one_range():
     told = ranged(along(np.arange(9) / 100), along(np.zeros(9)), 1.0, ".2f")
     assert told == (
-        "0.00 to 0.00 for H below 0 (holds); 0.01 to 0.02 for H within 0.25 of 0 (holds); 0.03 to 0.05 for H 0.25 to "
-        "1.75 (holds); 0.06 to 0.07 for H within 0.25 of 2 (holds); 0.08 to 0.08 for H above 2 (holds)"
+        "0.00 for H below 0 (holds); 0.01 to 0.02 for H within 0.25 of 0 (holds); 0.03 to 0.05 for H 0.25 to "
+        "1.75 (holds); 0.06 to 0.07 for H within 0.25 of 2 (holds); 0.08 for H above 2 (holds)"
     )
     assert list(middle(along(np.zeros(9)))["hurst"]) == [0.25, 1.0, 1.75]
     assert len(RANGES) == 5
+
+
+def test_what_is_judged_in_the_middle_has_verdicts_of_all_ranges():
+    rule = ruled_in_middle(along([0.5, 0.5, 0.5, 0.0, 0.0, 0.0, 0.5, 0.5, 0.04]), along(np.zeros(9)), 0.1)
+    assert (rule.word, rule.span) == ("holds", "0.25 <= H <= 1.75")
+    assert rule.ranges == {
+        "below 0": "does not hold: +50.0%",
+        "within 0.25 of 0": "does not hold: +50.0%",
+        "0.25 to 1.75": "holds: +0.0%",
+        "within 0.25 of 2": "does not hold: +50.0%",
+        "above 2": "holds: +4.0%",
+    }
+    assert ruled([0.0], 0.0, 0.1).ranges == {}
 
 
 def test_a_number_is_above_another_by_more_than_three_errors():
