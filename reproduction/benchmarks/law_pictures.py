@@ -85,15 +85,15 @@ def cut(figure: Figure, ensemble: xarray.Dataset, border: xarray.Dataset) -> Non
     """Draw s(x) of one crest with the crests of E8 (a), and the effect of a random cut beside its theory (b)."""
     left, right = drawing.panels(figure, 1, 2)
     x = np.linspace(0, 1.6, 200)
-    for name, colour in ((PERIOD, drawing.SURFACES), (LARGER, drawing.LINES)):
-        left.plot(x, stiffness_ratio(x, name), color=colour, label=f"smooth crest, {name}")
+    for name, words, colour in ((PERIOD, "period", drawing.SURFACES), (LARGER, "patch", drawing.LINES)):
+        left.plot(x, stiffness_ratio(x, name), color=colour, label=f"smooth, {words}")
     for h, mark in zip(CRESTS, "ov^", strict=True):
         rows = at_border(ensemble, border, h)
         style = {"fmt": mark, "color": "0.3", "markersize": 4, "markerfacecolor": "none", "elinewidth": 0.8}
         left.errorbar(*rows, label=f"E8, H = {h:g}", **style)
     left.axhline(1, color="0.5", linewidth=0.7)
     drawing.label(left, "distance to the border over a", "k over that in the middle")
-    left.set_xlim(-0.05, 1.6)
+    left.set(xlim=(-0.05, 1.6), ylim=(0.82, 1.5))
     found = effects(ensemble)
     shown = [float(h) for h in found["hurst"] if float(h) in EFFECTS]
     for h, mark in zip(shown, "xo^sv", strict=False):
@@ -105,8 +105,8 @@ def cut(figure: Figure, ensemble: xarray.Dataset, border: xarray.Dataset) -> Non
     width = np.linspace(0, 0.45, 100)
     right.plot(width, 100 * mean_effect(width / 4, PERIOD), color=drawing.LAW, label="theory of one crest")
     drawing.label(right, "4 a/L", "a random cut adds to k, %")
-    for axes in (left, right):
-        axes.legend(loc="best")
+    left.legend(loc="upper right", ncols=2)
+    right.legend(loc="upper left")
 
 
 def convergence(figure: Figure, same: dict[int, xarray.Dataset], words: str) -> None:
