@@ -15,7 +15,7 @@ from roughcontact_thesis import drawing
 from roughcontact_thesis.ruling import exactly
 from roughcontact_thesis.verdict import Verdict, Verdicts
 
-__all__ = ["Pressed", "case", "draw", "verdicts"]
+__all__ = ["LineOnSprings", "case", "draw", "verdicts"]
 
 TITLE = "a rough line on springs: lengths in contact, and the area that is the force"
 POINTS = 256
@@ -30,7 +30,7 @@ SIZE = (drawing.COLUMN, 2.6)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
-class Pressed:
+class LineOnSprings:
     """A line of length 1 at a level, for E* = 1.
 
     Attributes
@@ -66,15 +66,15 @@ class Pressed:
         return float(self.line.grid.spacing[0] * above.sum())
 
 
-def case(seed: int = SEED) -> Pressed:
+def case(seed: int = SEED) -> LineOnSprings:
     """Return the line and the level."""
     line = rc.self_affine(
         rc.Grid(POINTS, 1 / POINTS), HURST, 1.0, np.random.default_rng(seed), short_cutoff=1 / 32
     )
-    return Pressed(line, float(line.heights.max()) - DEPTH)
+    return LineOnSprings(line, float(line.heights.max()) - DEPTH)
 
 
-def draw(figure: Figure, data: Pressed) -> None:
+def draw(figure: Figure, data: LineOnSprings) -> None:
     """Draw the line above the level, with the lengths in contact and the shaded area."""
     axes = figure.subplots()
     x, heights = data.line.grid.coordinates[0], data.line.heights
@@ -93,7 +93,7 @@ def draw(figure: Figure, data: Pressed) -> None:
     drawing.label(axes, r"$x\,/\,L$", r"height / $h$", xlim=(0, 1))
 
 
-def verdicts(data: Pressed) -> Verdicts:
+def verdicts(data: LineOnSprings) -> Verdicts:
     """Return force and stiffness as captioned, beside those of the springs."""
     spacing, depth = data.line.grid.spacing[0], float(data.line.heights.max()) - data.level
     above = np.sort(np.abs(data.line.heights - data.level))[0] / 2  # no spring touches or leaves within it

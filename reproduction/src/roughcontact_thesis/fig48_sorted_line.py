@@ -30,7 +30,7 @@ class Sorted:
 
     Attributes
     ----------
-    pressed : Pressed
+    pressed : LineOnSprings
         The line at the level of the picture.
     heights : array, shape (256,)
         The same heights, the highest first.
@@ -38,7 +38,7 @@ class Sorted:
         Depths.
     """
 
-    pressed: fig47.Pressed
+    pressed: fig47.LineOnSprings
     heights: Array
     by_bisection: Array
     by_order: Array

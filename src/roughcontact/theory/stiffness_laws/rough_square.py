@@ -4,7 +4,7 @@ k/(E* L) = zeta (F/(E* h L))^alpha as in the thesis (`pohrt_popov`), but alpha a
 stiffness of 800 free squares of 512 x 512 cells for each of twelve Hurst exponents (docs/evidence/law.md), and monotone
 interpolations between them. With kappa, k/(E* L) at F/(E* h L) = 0.02, zeta is kappa 0.02^-alpha.
 
-They depend on where the square is cut out of its surface (`Cut`), because a crest at the border is cut in two:
+They depend on where the square is cut out of its surface, because a crest at the border is cut in two:
 
 ``"interior"``
     The highest crest lies in the middle, and at most 5 % of the force within a contact radius of the border: the law of
@@ -61,7 +61,7 @@ def exponent(hurst: ArrayLike, *, cut: Cut) -> Array:
     hurst : float or array
         Hurst exponent H, from 0.1 to 2.95.
     cut : {"interior", "period", "patch"}
-        Where the square is cut out of its surface, see `Cut`.
+        Where the square is cut out of its surface, see the description of the module.
 
     Returns
     -------
@@ -176,7 +176,7 @@ def stiffness(
     modulus : float or array
         Reduced modulus E* [Pa].
     cut : {"interior", "period", "patch"}
-        Where the square is cut out of its surface, see `Cut`.
+        Where the square is cut out of its surface, see the description of the module.
 
     Returns
     -------
