@@ -12,6 +12,7 @@ STEEL, RIGID = rc.Solid(205e9, 0.29), rc.Solid(np.inf, 0.0)
 FULL = PERIODIC.heights.max() - PERIODIC.heights.mean()
 FLAT = rc.Surface(np.zeros((16, 16)), PLANE)
 FREE_LINE = rc.line(LINE, MODULUS)
+WIDE = rc.self_affine(rc.Grid((16, 24), 1e-6), hurst=0.8, rms=1e-8, rng=1)
 TWO_AXES = rc.Grid((16, 16), 1e-6, periodic=(True, False))
 
 
@@ -25,6 +26,10 @@ def curve(surface=ROUGH, **named):
 
 def loop(**named):
     return rc.loading_loop(ROUGH, MODULUS, **({"hardness": 1e8} | named))
+
+
+def square_laws(surface, **given):
+    return rc.loading_laws(surface, MODULUS, "rough-square-interior", hurst=0.8, **given)
 
 
 def stretched(cells, spacing):
@@ -334,6 +339,34 @@ CURVES = [
         lambda: rc.loading_laws(PROFILE, MODULUS, ["gw"]),
         "these theories are for surfaces: give a surface on a grid of two axes",
         lambda: rc.loading_laws(ROUGH, MODULUS, ["gw"]),
+    ),
+    row(
+        lambda: square_laws(PERIODIC),
+        "those of a free square, and this map is periodic: use persson",
+        lambda: rc.loading_laws(PERIODIC, MODULUS, "persson"),
+    ),
+    row(
+        lambda: square_laws(WIDE),
+        "those of a square, and this map is 24 µm by 16 µm: crop it to a square",
+        lambda: square_laws(WIDE.cropped(slice(None), slice(16))),
+    ),
+    row(
+        lambda: square_laws(ROUGH, rolloff=4e-6),
+        "this map has a roll-off at 4 µm, with a side of 16 µm: use finite-size or persson",
+        lambda: rc.loading_laws(ROUGH, MODULUS, ["finite-size", "persson"], rolloff=4e-6),
+    ),
+    row(
+        lambda: rc.theory.rough_square.exponent(0.8, cut="middle"),
+        "there is no cut 'middle'; there are interior, period, patch",
+        *(
+            lambda cut=cut: rc.theory.rough_square.exponent(0.8, cut=cut)
+            for cut in ("interior", "period", "patch")
+        ),
+    ),
+    row(
+        lambda: rc.theory.rough_square.stiffness(0.1, 0.8, 1e-6, 1e-3, 1e11, cut="interior"),
+        "(given: 0.001); compute the surface, or use pohrt_popov",
+        lambda: rc.theory.pohrt_popov.stiffness(0.1, 0.8, 1e-6, 1e-3, 1e11),
     ),
     row(
         lambda: rc.loading_laws(PERIODIC, MODULUS, ["cgp"]),
