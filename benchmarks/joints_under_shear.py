@@ -59,9 +59,8 @@ def accuracy() -> None:
 def amplitudes() -> None:
     """Print loss and damping of the fitted law against the amplitude of the displacement."""
     found = law(0.0, np.geomspace(5e3, PRESSURE, 31)).fitted
-    print(
-        "| s over gross slip | tau over mu p | loss [mJ/m²] | its local exponent | damping |\n|---|---|---|---|---|"
-    )
+    print("| s over gross slip | tau over mu p | loss [mJ/m²] | local exponent of the loss | damping |")
+    print("|---|---|---|---|---|")
     top = float(found.gross_slip(PRESSURE))
     for part in AMPLITUDES:
         s = part * top

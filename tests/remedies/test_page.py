@@ -185,7 +185,7 @@ LOADS = [
     ),
     row(
         press("1N", hardness="1kPa"),
-        "exceeds 1.024e-06",
+        "exceeds 1.024 µN",
         press("1.02uN", hardness="1kPa"),
         press("1N", hardness="10GPa"),
     ),

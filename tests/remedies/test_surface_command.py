@@ -139,7 +139,7 @@ $ surface spectrum rough.npz --shortest 1nm --longest 2nm
 > surface spectrum rough.npz --longest 48um --shortest 4.04um
 
 $ thesis fig1
-! choose one of fig4, fig5
+! choose one of fig3, fig4
 > thesis list
 > thesis fig4
 

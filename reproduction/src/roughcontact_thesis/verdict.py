@@ -53,7 +53,7 @@ class Verdict:
     --------
     >>> import roughcontact_thesis
     >>> found = roughcontact_thesis.module("fig41")
-    >>> [verdict] = roughcontact_thesis.verdicts(found, found.case())
+    >>> verdict, *_ = roughcontact_thesis.verdicts(found, found.case())
     >>> verdict.source, verdict.word
     ('section A.1.1, fig. 41', 'holds')
     """

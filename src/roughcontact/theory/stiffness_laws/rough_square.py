@@ -18,17 +18,14 @@ They depend on where the square is cut out of its surface, because a crest at th
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass
-from functools import cache, partial
+from functools import partial
 from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike
-from scipy.interpolate import PchipInterpolator
 
 from roughcontact.theory.law import LoadingLaw
-from roughcontact.theory.stiffness_laws.rough_square_table import COLUMNS, TABLES
+from roughcontact.theory.stiffness_laws.square_laws import LEAST_STIFFNESS, laws_of_cut
 from roughcontact.validation import Array, number, numeric, positive, require
 
 __all__ = [
@@ -47,8 +44,6 @@ __all__ = [
 
 Cut = Literal["interior", "period", "patch"]
 
-LEAST_STIFFNESS = 0.035  # k/(E* L) of 20 of 512 x 512 cells, below which single cells dominate
-_REFERENCE = 0.02  # F/(E* h L) at which the errors of exponent and level are almost uncorrelated
 _ROUND = 1e-9  # tolerance of a force at an end of the window
 HURST_LIMITS = (0.1, 2.95)
 
@@ -85,7 +80,7 @@ def exponent(hurst: ArrayLike, *, cut: Cut) -> Array:
     0.56, 0.58 beside 0.59
     0.40, 0.42 beside 0.38
     """
-    return _laws(cut).exponent(_hurst(hurst))
+    return laws_of_cut(cut).exponent(_hurst(hurst))
 
 
 def exponent_error(hurst: ArrayLike, *, cut: Cut) -> Array:
@@ -93,7 +88,9 @@ def exponent_error(hurst: ArrayLike, *, cut: Cut) -> Array:
 
     Parameters
     ----------
-    hurst, cut
+    hurst : float or array
+        See `exponent`.
+    cut : {"interior", "period", "patch"}
         See `exponent`.
 
     Returns
@@ -108,7 +105,7 @@ def exponent_error(hurst: ArrayLike, *, cut: Cut) -> Array:
     >>> print(f"{alpha:.3f} +- {error:.3f}")
     0.565 +- 0.003
     """
-    return _laws(cut).at(_hurst(hurst), "exponent_error")
+    return laws_of_cut(cut).at(_hurst(hurst), "exponent_error")
 
 
 def prefactor(hurst: ArrayLike, *, cut: Cut) -> Array:
@@ -116,7 +113,9 @@ def prefactor(hurst: ArrayLike, *, cut: Cut) -> Array:
 
     Parameters
     ----------
-    hurst, cut
+    hurst : float or array
+        See `exponent`.
+    cut : {"interior", "period", "patch"}
         See `exponent`.
 
     Returns
@@ -131,7 +130,7 @@ def prefactor(hurst: ArrayLike, *, cut: Cut) -> Array:
     >>> print(f"{zeta:.2f} +- {error:.2f}")
     0.82 +- 0.01
     """
-    zeta: Array = np.exp(_laws(cut).log_stiffness(1.0, _hurst(hurst)))
+    zeta: Array = np.exp(laws_of_cut(cut).log_stiffness(1.0, _hurst(hurst)))
     return zeta
 
 
@@ -140,7 +139,9 @@ def prefactor_error(hurst: ArrayLike, *, cut: Cut) -> Array:
 
     Parameters
     ----------
-    hurst, cut
+    hurst : float or array
+        See `exponent`.
+    cut : {"interior", "period", "patch"}
         See `exponent`.
 
     Returns
@@ -154,7 +155,7 @@ def prefactor_error(hurst: ArrayLike, *, cut: Cut) -> Array:
     >>> bool(rough_square.prefactor_error(0.7, cut="period") > 0)
     True
     """
-    return prefactor(hurst, cut=cut) * _laws(cut).standard_error(1.0, _hurst(hurst))
+    return prefactor(hurst, cut=cut) * laws_of_cut(cut).standard_error(1.0, _hurst(hurst))
 
 
 @numeric
@@ -207,7 +208,7 @@ def stiffness(
     +19% +- 1%
     """
     f, h, scale = _given(force, hurst, rms, length, modulus, cut)
-    k: Array = scale * np.exp(_laws(cut).log_stiffness(f, h))
+    k: Array = scale * np.exp(laws_of_cut(cut).log_stiffness(f, h))
     return k
 
 
@@ -219,7 +220,9 @@ def relative_error(
 
     Parameters
     ----------
-    force, hurst, rms, length, modulus, cut
+    force, hurst, rms, length, modulus : float or array
+        See `stiffness`.
+    cut : {"interior", "period", "patch"}
         See `stiffness`.
 
     Returns
@@ -236,7 +239,7 @@ def relative_error(
     True
     """
     f, h, _ = _given(force, hurst, rms, length, modulus, cut)
-    laws = _laws(cut)
+    laws = laws_of_cut(cut)
     return np.hypot(laws.standard_error(f, h), laws.at(h, "misfit"))
 
 
@@ -248,7 +251,9 @@ def single_range(
 
     Parameters
     ----------
-    force, hurst, rms, length, modulus, cut
+    force, hurst, rms, length, modulus : float or array
+        See `stiffness`.
+    cut : {"interior", "period", "patch"}
         See `stiffness`.
 
     Returns
@@ -266,7 +271,7 @@ def single_range(
     '0.67 to 1.42 of the mean'
     """
     f, h, scale = _given(force, hurst, rms, length, modulus, cut)
-    laws = _laws(cut)
+    laws = laws_of_cut(cut)
     mean = scale * np.exp(laws.log_stiffness(f, h))
     low, high = laws.quantiles(f, h)
     return mean * low, mean * high
@@ -278,7 +283,9 @@ def law(hurst: float, rms: float, length: float, modulus: float, *, cut: Cut) ->
 
     Parameters
     ----------
-    hurst, rms, length, modulus, cut
+    hurst, rms, length, modulus : float
+        See `stiffness`.
+    cut : {"interior", "period", "patch"}
         See `stiffness`.
 
     Returns
@@ -294,7 +301,7 @@ def law(hurst: float, rms: float, length: float, modulus: float, *, cut: Cut) ->
     (LoadingLaw(Rough squares, computed (interior): stiffness), ['0.31 N', '7 N'])
     """
     surface = {"hurst": hurst, "rms": rms, "length": length, "modulus": modulus}
-    h, laws = _hurst(hurst), _laws(cut)
+    h, laws = _hurst(hurst), laws_of_cut(cut)
     scale = float(_scale(length, modulus) * positive(rms, "rms [m]"))
     return LoadingLaw(
         f"Rough squares, computed ({cut})",
@@ -304,74 +311,11 @@ def law(hurst: float, rms: float, length: float, modulus: float, *, cut: Cut) ->
     )
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class _Laws:
-    """The values of one cut at the computed Hurst exponents, by name, and between them."""
-
-    columns: Mapping[str, Array]
-
-    def at(self, hurst: Array, name: str) -> Array:
-        """Return a column at H, on straight lines between its values."""
-        found: Array = np.interp(hurst, self.columns["hurst"], self.columns[name])
-        return found
-
-    def exponent(self, hurst: Array) -> Array:
-        alpha: Array = self._smooth("exponent")(hurst)[()]
-        return alpha
-
-    def level(self, hurst: Array) -> Array:
-        """Return kappa, k/(E* L) at the reference force."""
-        kappa: Array = self._smooth("level")(hurst)[()]
-        return kappa
-
-    def lowest(self, hurst: Array) -> Array:
-        """Return the force F/(E* h L) at which k is the smallest resolved stiffness."""
-        found: Array = _REFERENCE * (LEAST_STIFFNESS / self.level(hurst)) ** (1 / self.exponent(hurst))
-        return found
-
-    def highest(self, hurst: Array) -> Array:
-        """Return the highest force F/(E* h L)."""
-        found: Array = np.exp(np.interp(hurst, self.columns["hurst"], np.log(self.columns["highest"])))
-        return found
-
-    def log_stiffness(self, force: ArrayLike, hurst: Array) -> Array:
-        """Return ln k/(E* L) at F/(E* h L)."""
-        k: Array = np.log(self.level(hurst)) + self.exponent(hurst) * np.log(np.asarray(force) / _REFERENCE)
-        return k
-
-    def standard_error(self, force: ArrayLike, hurst: Array) -> Array:
-        """Return the standard error of ln k at F/(E* h L)."""
-        names = ("exponent_error", "level_error", "correlation")
-        of_alpha, of_level, correlation = (self.at(hurst, each) for each in names)
-        by_alpha = np.log(np.asarray(force) / _REFERENCE) * of_alpha
-        error: Array = np.sqrt(of_level**2 + 2 * correlation * of_level * by_alpha + by_alpha**2)
-        return error
-
-    def quantiles(self, force: Array, hurst: Array) -> tuple[Array, Array]:
-        """Return the 5 and 95 % quantiles over the mean, on straight lines over ln F between the ends of the window."""
-        low, high = np.log(self.lowest(hurst)), np.log(self.highest(hurst))
-        part = (np.log(force) - low) / (high - low)
-        first, last = (
-            [self.at(hurst, f"{quantile}_{end}") for quantile in ("low", "high")] for end in ("first", "last")
-        )
-        ends = [a + (b - a) * part for a, b in zip(first, last, strict=True)]
-        return ends[0], ends[1]
-
-    def _smooth(self, name: str) -> PchipInterpolator:
-        return PchipInterpolator(self.columns["hurst"], self.columns[name])
-
-
-@cache
-def _laws(cut: Cut) -> _Laws:
-    require(cut in TABLES, f"there is no cut {cut!r}; there are {', '.join(TABLES)}", place="cut")
-    return _Laws(dict(zip(COLUMNS, np.array(TABLES[cut]).T, strict=True)))
-
-
 def _given(
     force: ArrayLike, hurst: ArrayLike, rms: ArrayLike, length: ArrayLike, modulus: ArrayLike, cut: Cut
 ) -> tuple[Array, Array, Array]:
     """Return F/(E* h L), inside the window, H, and E* L [N/m]."""
-    laws, h, scale = _laws(cut), _hurst(hurst), _scale(length, modulus)
+    laws, h, scale = laws_of_cut(cut), _hurst(hurst), _scale(length, modulus)
     f = positive(force, "force [N]") / (scale * positive(rms, "rms [m]"))
     low, high = laws.lowest(h), laws.highest(h)
     require(
