@@ -42,15 +42,10 @@ def by_cut(ensemble: xarray.Dataset) -> dict[str, xarray.Dataset]:
     ratio = width.copy(data=mean_effect(width.to_numpy(), LARGER) / mean_effect(width.to_numpy(), PERIOD))
     patch = interior.assign(dimensionless_stiffness=middle + ratio * (k - middle))
     found = {"interior": interior, "period": period, "patch": patch}
-    inner = interior["border_share"].mean("sample") <= BORDER
-    return {
-        cut: one.assign(
-            mean=resampled(one["dimensionless_stiffness"]),
-            inside=resolved(one, resampled(one["dimensionless_stiffness"]))
-            & (inner if cut == "interior" else True),
-        )
-        for cut, one in found.items()
-    }
+    found = {cut: one.assign(mean=resampled(one["dimensionless_stiffness"])) for cut, one in found.items()}
+    found = {cut: one.assign(inside=resolved(one, one["mean"])) for cut, one in found.items()}
+    inner = found["interior"]["inside"] & (interior["border_share"].mean("sample") <= BORDER)
+    return found | {"interior": found["interior"].assign(inside=inner)}
 
 
 def laws_of(one: xarray.Dataset) -> tuple[Values, Values]:

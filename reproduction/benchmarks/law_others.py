@@ -36,6 +36,7 @@ from law_tables import (
 from roughcontact.study.study import Study
 from roughcontact.study.task import generator
 from roughcontact.theory.spheres_and_punches import rough_sphere
+from roughcontact.theory.stiffness_laws import rough_square
 
 PRESSURES = (1e-3, 1e-2, 1e-1)  # p l/(E* h), l the roll-off
 SPHERE = {"radius": 0.5, "hurst": 0.7, "rms": 9e-3, "length": 1.0, "modulus": 1.0}
@@ -155,6 +156,9 @@ def e5(folder: Path = FOLDER) -> dict[str, Table | str]:
             told[samples] = flat_words(int(ensemble["points"]), samples, body)
     if told:
         tables["e5 said"] = told[max(told)]
+    flat_squares = read("e5-flat-1024", folder)
+    if flat_squares is not None:
+        tables["law-of-flat"] = law_of_flat(flat_squares)
     patches, whole = read("e5-patches", folder), read("e5-flat-1024", folder)
     if patches is not None:
         tables["e5-patches"] = patched(patches, whole)
@@ -170,6 +174,21 @@ def flat_words(points: int, samples: int, body: list[list[str]]) -> str:
         f"{grows}. The K of a free square of L = 32 l exceeds that of the periodic surface by {last[4]} at "
         f"p l/(E* h) = {PRESSURES[0]:g} and by {last[8]} at {PRESSURES[-1]:g}; its k/K falls from {last[5]} to "
         f"{last[9]} ({samples} surfaces)."
+    )
+
+
+def law_of_flat(ensemble: xarray.Dataset) -> str:
+    """Return in words how far the law of squares lies from free squares with a roll-off."""
+    hurst, words = float(ensemble["hurst"]), []
+    for row, length in enumerate(ensemble["rolloff"].to_numpy()):
+        force = ensemble["dimensionless_force"].isel(row=row, periodic=0)
+        mean = resampled(ensemble["dimensionless_stiffness"].isel(row=row, periodic=0))
+        k = np.exp(interpolated(np.log(xarray.DataArray(MIDDLE)), force, mean))
+        off = float(rough_square.stiffness(MIDDLE, hurst, 1.0, 1.0, 1.0, cut="interior")) / k - 1
+        words.append(f"{each_percent(one(off), ensemble.sizes['sample'])[0]} for l = L/{1 / length:g}")
+    return (
+        f"On free squares with a roll-off at l, H = {hurst:g}, the law of the interior exceeds the mean stiffness at "
+        f"{MIDDLE:g} E* h L by {', '.join(words)} (E5, {ensemble.sizes['sample']} surfaces)."
     )
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import xarray
+from law_crest import by_cut, laws_of
 from law_ensembles import CELLS, FOLDER, Values, error, interpolated, law, read, resampled, value
 from law_others import PRESSURES, SIZE_FORCE, SPHERE
 from law_tables import HIGHEST, between, curves, e1_laws, each, resolved
@@ -213,12 +214,12 @@ def _sizes(ensemble: xarray.Dataset, folder: Path) -> Iterator[Larger]:
 
 def _shape(ensemble: xarray.Dataset, folder: Path) -> Iterator[Larger]:
     """Yield the exponents of squares around their highest crest, and what a cut at random does to the stiffness."""
-    force, stiffness, samples = curves(ensemble)
-    drawn, middle = (resampled(stiffness.isel(row=row, drop=True)) for row in (0, 1))
-    kept = resolved(ensemble.isel(row=0), drawn) & resolved(ensemble.isel(row=1), middle)
-    off = (drawn / middle - 1).where(kept).assign_coords(load=force.to_numpy()).rename(load="force")
-    told = samples, f"surfaces of {int(ensemble['points'])}² cells"
-    alpha, _ = law(force, middle, resolved(ensemble.isel(row=1), middle))
+    cuts, force = by_cut(ensemble), ensemble["dimensionless_force"].to_numpy()
+    told = ensemble.sizes["sample"], f"surfaces of {int(ensemble['points'])}² cells"
+    drawn, middle = cuts["period"], cuts["interior"]
+    kept = drawn["inside"] & resolved(middle, middle["mean"])
+    off = (drawn["mean"] / middle["mean"] - 1).where(kept).assign_coords(load=force).rename(load="force")
+    alpha, _ = laws_of(middle)
     central, hertz = (("fig27", claim) for claim, *_ in fig27.CENTRED)
     yield _by(central, alpha * (alpha["hurst"] + 1) - 1, fig27.NEAR, told)
     yield _by(hertz, 3 * alpha.sel(hurst=SMOOTH) - 1, fig27.NEAR, told, rule=ruled)

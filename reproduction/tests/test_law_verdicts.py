@@ -42,6 +42,7 @@ def cut(folder, stiffer):
                 ("row", "hurst", "sample", "load"),
                 np.stack([middle * (1 + stiffer * force), middle]),
             ),
+            "border_share": (("row", "hurst", "sample", "load"), np.zeros((2, 3, 40, 5))),
             "dimensionless_force": ("load", force),
             "cell_stiffness": 1e-4,
         },

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from scipy.interpolate import PchipInterpolator
 
 import roughcontact as rc
 from roughcontact.theory.stiffness_laws import pohrt_popov, rough_square
@@ -54,6 +55,21 @@ def test_between_the_hurst_exponents_of_the_ensembles_it_goes_one_way(cut):
     dense = np.linspace(*rough_square.HURST_LIMITS, 400)
     assert (np.diff(rough_square.exponent(dense, cut=cut)) < 0).all()
     assert (np.diff(rough_square.stiffness(0.015, dense, 1.0, 1.0, 1.0, cut=cut)) > 0).all()
+
+
+@every_cut
+def test_a_hurst_exponent_that_is_left_out_is_interpolated(cut):
+    """The page states these bounds: 1.1 % of kappa, 2.5 standard errors of alpha."""
+    table = {name: np.array([row[name] for row in rows(cut)]) for name in COLUMNS}
+    hurst = table["hurst"]
+    for place in range(1, len(hurst) - 1):
+        others = np.arange(len(hurst)) != place
+        alpha, kappa = (
+            PchipInterpolator(hurst[others], table[name][others])(hurst[place])
+            for name in ("exponent", "level")
+        )
+        assert abs(alpha - table["exponent"][place]) < 2.55 * table["exponent_error"][place]
+        assert kappa == pytest.approx(table["level"][place], rel=0.0115)
 
 
 def test_a_random_cut_is_stiffer_and_a_patch_softer_than_the_interior():
