@@ -89,12 +89,14 @@ class Person:
         )
 
     def open(self, file):
+        """Upload a file; its name is shown when the page has made its forms anew, without what was in them."""
         content = {
             "name": file.name,
             "mimeType": "application/octet-stream",
             "buffer": file.read_bytes(),
         }
         self.page.set_input_files("#file", content)
+        self.page.locator("#name", has_text=file.name).wait_for(timeout=1000 * PATIENCE)
 
     def text(self, name):
         return self.field(name).text_content()
