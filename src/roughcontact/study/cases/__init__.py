@@ -19,6 +19,7 @@ if TYPE_CHECKING:  # tools that bundle programs read this
         cells_case,  # noqa: F401
         curve_case,  # noqa: F401
         job_case,  # noqa: F401
+        joint_case,  # noqa: F401
         lines_case,  # noqa: F401
         loop_case,  # noqa: F401
         patch_case,  # noqa: F401
@@ -29,7 +30,19 @@ if TYPE_CHECKING:  # tools that bundle programs read this
 __all__ = ["CASES", "find_case"]
 
 # The module of a case is imported when the case is first used.
-_NAMES = ("adhesion", "asperities", "cells", "curve", "job", "lines", "loop", "patch", "slip", "yielding")
+_NAMES = (
+    "adhesion",
+    "asperities",
+    "cells",
+    "curve",
+    "job",
+    "joint",
+    "lines",
+    "loop",
+    "patch",
+    "slip",
+    "yielding",
+)
 CASES: Mapping[str, str] = MappingProxyType({name: f"{__name__}.{name}_case:CASE" for name in _NAMES})
 _OWN = "or give your own case in Python as module:attribute"
 
