@@ -76,9 +76,11 @@ class JointParameters(Parameters):
     def surface(self, rng: np.random.Generator) -> Surface:
         """Return a surface; its rms height is that of the Gaussian process."""
         grid = Grid((self.points, self.points), self.side / self.points, periodic=True)
-        limits = {"rolloff": 1.0, "short_cutoff": 1 / self.band}
-        generator = rng.spawn(self.draw + 1)[-1]
-        return self_affine(grid, self.hurst, HEIGHT, generator, amplitudes="gaussian", **limits)
+        own = rng.spawn(self.draw + 1)[-1]
+        cutoff = 1 / self.band
+        return self_affine(
+            grid, self.hurst, HEIGHT, own, rolloff=1, short_cutoff=cutoff, amplitudes="gaussian"
+        )
 
 
 def run(parameters: JointParameters, rng: np.random.Generator) -> Record:
