@@ -39,6 +39,10 @@ GIVEN = {
         {"job": "curve", "source": MADE, "bodies": {"modulus": 1e9}, "preparation": {"level": "plane"}},
         {"job": "press", "source": MADE, "bodies": {"materials": "steel,rigid"}, "load": {"force": "1 N"}},
     ],
+    "joint": [
+        {"hurst": 0.8, "side": 2, "band": 2, "points": 24, "loads": 3},
+        {"hurst": 0.5, "side": 8, "band": 6, "hardness": 2.0, "draw": 7},
+    ],
     "lines": [{"hurst": 0.8, "points": 64}, {"hurst": -1, "points": 8, "lines": 2, "loads": 2}],
     "loop": [PRESSED | HARD, SOFT | FORCES, {**PRESSED, **HARD, "flow": "raised"}],
     "patch": [{**PRESSED, "period": 2}, {**PRESSED, **HARD, "period": 4, "rolloff": 0.5}],

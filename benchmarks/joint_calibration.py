@@ -1,0 +1,118 @@
+"""How often the intervals of `rc.infer_joint` hold the truth, on joints that the emulator has not seen.
+
+    roughcontact study run examples/joint/calibration.toml --out calibration  # resumes; 20 minutes of a core
+    python benchmarks/joint_calibration.py calibration
+
+400 joints of 64 l^2 and more drawn from the prior, all of one area. Each is measured at five pressures over 2.4
+decades, with an error of 5 % a load, a gain of 3 % and a discrepancy of 5 %.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+import scipy.stats
+import xarray
+
+import roughcontact as rc
+from roughcontact.measurement.joint_model import DECADE, DISCREPANCY
+from roughcontact.study.export import export
+from roughcontact.study.store import Store
+
+DATA = Path(__file__).resolve().parents[1] / "docs" / "data" / "joint"
+LOADS = slice(1, 14, 3)  # five of sixteen nodes, a fifth of a decade apart
+ERROR, GAIN, MODULUS_ERROR = 0.05, 0.03, 0.02
+MODULUS, RMS, ROLLOFF = 115e9, 1e-6, 1e-4
+SIDE, SPREAD = (
+    11.3,
+    {"rms": 0.4, "rolloff": 0.17},
+)  # of the joint in ROLLOFF, and of the topography's statement
+UNKNOWN = 100.0  # error of the Hurst exponent: a prior without information
+SHARES = np.linspace(0.01, 0.99, 99)
+
+Array = npt.NDArray[np.float64]
+
+
+def specimens(store: Path | None) -> xarray.Dataset:
+    """Return the computed joints, from the folder of their study or as kept."""
+    if store is None:
+        return xarray.load_dataset(DATA / "calibration.nc", engine="h5netcdf")
+    with Store.open(store) as opened:
+        found = export(opened)
+    return found[["stiffness_per_area", "pressure"]].isel(sample=0)
+
+
+def measured(side: float, curve: Array, nodes: Array, rng: np.random.Generator) -> tuple[Array, Array, Array]:
+    """Return ln h and ln l of a joint drawn from the prior, its pressures [Pa] and its stiffnesses [Pa/m]."""
+    rolloff = SIDE * ROLLOFF / side
+    rms = RMS * np.exp(SPREAD["rms"] * rng.standard_normal())
+    modulus = MODULUS * np.exp(MODULUS_ERROR * rng.standard_normal())
+    p = nodes * modulus * rms / rolloff
+    apart = np.log(p[:, None] / p) / DECADE
+    discrepancy = rng.multivariate_normal(np.zeros(p.size), DISCREPANCY**2 * np.exp(-(apart**2) / 2))
+    error = ERROR * rng.standard_normal(p.size) + GAIN * rng.standard_normal() + discrepancy
+    return np.log([rms, rolloff]), p, curve * modulus / rolloff * np.exp(error)
+
+
+def inferred(p: Array, stiffness: Array) -> rc.JointInference:
+    """Return the answer for a joint of the calibration."""
+    topography = rc.JointTopography(RMS, SPREAD["rms"], ROLLOFF, SPREAD["rolloff"], 0.75, UNKNOWN)
+    return rc.infer_joint(
+        p,
+        stiffness,
+        errors=ERROR,
+        gain=GAIN,
+        modulus=MODULUS,
+        modulus_error=MODULUS_ERROR,
+        area=(SIDE * ROLLOFF) ** 2,
+        branch="loading",
+        profile=topography,
+    )
+
+
+def main() -> None:
+    """Run it."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("store", type=Path, nargs="?")
+    data = specimens(parser.parse_args().store)
+    hursts, sides = data["hurst"].to_numpy(), data["side"].to_numpy()
+    curves = data["stiffness_per_area"].transpose("row", "load").to_numpy().astype(float)
+    nodes = data["pressure"].to_numpy().reshape(-1, curves.shape[1])[0].astype(float)
+    rng = np.random.default_rng(1)
+    rows = []
+    for k in np.flatnonzero(np.isfinite(curves).all(axis=1)):
+        truth, p, stiffness = measured(float(sides[k]), curves[k, LOADS], nodes[LOADS], rng)
+        found = inferred(p, stiffness)
+        weights = np.array([found.exponent, 1 - found.exponent])
+        rows.append(
+            {
+                "hurst": hursts[k],
+                "height": found.share_below(float(np.exp(weights @ truth))),
+                "p": found.p_value,
+                "width": found.width,
+                **{each.name: each.nats for each in found.parameters},
+            }
+        )
+    report(rows)
+
+
+def report(rows: list[dict[str, float]]) -> None:
+    """Print coverage of all and of the quarters of the prior, ranks, and the information gained."""
+    table = {name: np.array([row.get(name, np.nan) for row in rows]) for name in rows[0]}
+    rank = table["height"]
+    print(f"{len(rank)} joints; flagged as wrong {np.mean(table['p'] < 0.01):.3f}")
+    for share in (0.5, 0.9):
+        inside = abs(rank - 0.5) < share / 2
+        quarters = [inside[part].mean() for part in np.array_split(np.argsort(table["hurst"]), 4)]
+        print(f"{share:.0%}: {inside.mean():.3f} of all; quarters of H: {np.round(quarters, 3)}")
+    print("ranks uniform: p =", f"{scipy.stats.kstest(rank, 'uniform').pvalue:.2f}")
+    print("sd of ln h_eff:", f"{np.median(table['width']):.3f}")
+    for name in ("rms", "rolloff", "hurst", "band", "modulus"):
+        print(f"nats of {name}: {np.nanmedian(table[name]):.3f}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,137 @@
+"""Fit the emulator of the stiffness of joints to its ensembles, and hold it against unseen ones.
+
+    python benchmarks/joint_table.py --take FOLDER   # from the folders of the studies, docs/data/joint/*.nc
+    python benchmarks/joint_table.py                 # from these files the table of the package
+
+With the inflation of the covariance, the squared distances of unseen specimens have the 90 % quantile of the
+chi-squared distribution.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+from pathlib import Path
+
+import numpy as np
+import numpy.typing as npt
+import scipy.stats
+import xarray
+
+from roughcontact.files.write import write_netcdf
+from roughcontact.measurement.joint_emulator import JointEmulator, terms
+from roughcontact.study.export import export
+from roughcontact.study.store import Store
+
+ROOT = Path(__file__).resolve().parents[1]
+DATA = ROOT / "docs" / "data" / "joint"
+TABLE = ROOT / "src" / "roughcontact" / "measurement" / "joint_table.json"
+LOADS = 5  # of a synthetic measurement, every third node
+DIGITS = 15  # binary, of the stored curves: 3e-5
+
+Array = npt.NDArray[np.float64]
+
+
+def take(source: Path) -> None:
+    """Keep the curves of the studies in a folder, for the samples whose designs are all done."""
+    DATA.mkdir(parents=True, exist_ok=True)
+    for name in ("design", "validation", "hardness"):
+        if not (source / name / "study.toml").is_file():
+            continue
+        with Store.open(source / name) as store:
+            found = export(store, seconds=True)
+        whole = (found["case_status"] == "done").all("row")
+        kept = found[["stiffness_per_area", "fraction", "pressure"]].isel(sample=whole.to_numpy())
+        hours = float(found["case_seconds"].sum()) / 3600
+        failed = int((found["case_status"] == "failed").sum())
+        converged = float(found["converged"].where(whole).mean())
+        kept.attrs.update(hours=hours, failed=failed)
+        write_netcdf(kept.astype(np.float32), DATA / f"{name}.nc", {})
+        print(f"{name}: {kept.sizes}, {hours:.2f} hours, {failed} failed, {converged:.4f} met the tolerance")
+
+
+def ensemble(name: str) -> tuple[Array, Array, Array, Array]:
+    """Return hurst, side, band of each row, shape (rows, 3), nodes, shape (n,), and ln K, shape (rows, samples, n)."""
+    with xarray.open_dataset(DATA / f"{name}.nc", engine="h5netcdf") as data:
+        points = np.stack([data[axis].to_numpy() for axis in ("hurst", "side", "band")], axis=1)
+        curves = np.log(
+            data["stiffness_per_area"].transpose("row", "sample", "load").to_numpy().astype(float)
+        )
+        nodes = np.log(data["pressure"].to_numpy().reshape(-1, curves.shape[-1])[0].astype(float))
+    return points, points, nodes, curves
+
+
+def fitted(points: Array, nodes: Array, curves: Array) -> JointEmulator:
+    """Return the emulator of an ensemble, without the misfit and the inflation that unseen ones decide."""
+    known = terms(*points.T)
+    means = curves.mean(axis=1)
+    deviations = curves.std(axis=1, ddof=1)
+    standard = (curves - means[:, None]) / deviations[:, None]
+    weights = 1 / deviations
+    mean = np.stack(
+        [
+            np.linalg.lstsq(known * w[:, None], m * w, rcond=None)[0]
+            for m, w in zip(means.T, weights.T, strict=True)
+        ],
+        axis=1,
+    )
+    deviation = np.linalg.lstsq(known, np.log(deviations), rcond=None)[0]
+    rows, samples, n = curves.shape
+    correlation = np.einsum("rsi,rsj->ij", standard, standard) / (rows * (samples - 1))
+    step = np.diff(nodes).mean()
+    return JointEmulator(
+        nodes[0] + step * np.arange(n), mean, deviation, correlation, np.zeros(n), rows * (samples - 1), 1.0
+    )
+
+
+def misfit(emulator: JointEmulator, points: Array, curves: Array) -> Array:
+    """Return the standard deviation of the true means about the fitted ones, by the means of unseen ensembles."""
+    mean, _ = emulator.at(*points.T, np.broadcast_to(emulator.nodes, (len(points), emulator.nodes.size)))
+    scatter = curves.var(axis=1, ddof=1) / curves.shape[1]
+    return np.sqrt(np.maximum(((curves.mean(axis=1) - mean) ** 2 - scatter).mean(axis=0), 0))
+
+
+def distances(emulator: JointEmulator, points: Array, curves: Array, nodes: slice) -> Array:
+    """Return the squared distances of specimens from their means in the covariance, shape (rows, samples)."""
+    at = np.broadcast_to(emulator.nodes[nodes], (len(points), emulator.nodes[nodes].size))
+    mean, covariance = emulator.at(*points.T, at)
+    residual = curves[:, :, nodes] - mean[:, None]
+    return np.einsum("rsi,rij,rsj->rs", residual, np.linalg.inv(covariance), residual)
+
+
+def main() -> None:
+    """Run it."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--take", type=Path)
+    chosen = parser.parse_args()
+    if chosen.take:
+        take(chosen.take)
+    points, _, nodes, curves = ensemble("design")
+    unseen, _, _, others = ensemble("validation")
+    first = fitted(points, nodes, curves)
+    spread = misfit(first, unseen, others)
+    names = ("nodes", "mean", "deviation", "correlation")
+    values = {name: getattr(first, name) for name in names} | {"misfit": spread, "freedom": first.freedom}
+    plain = JointEmulator(**values, inflation=1.0)
+    every = slice(0, None, 3)
+    measured = distances(plain, unseen, others, every).ravel()
+    d = plain.nodes[every].size
+    inflation = float(np.quantile(measured, 0.9) / scipy.stats.chi2.ppf(0.9, d))
+    table = {name: np.round(value, 6).tolist() for name, value in values.items()} | {
+        "inflation": round(inflation, 4)
+    }
+    TABLE.write_text(json.dumps(table, separators=(",", ":")) + "\n", encoding="utf-8")
+    print("misfit of means [%]", np.round(100 * spread, 1))
+    print("sd of ln K at 16, 64, 256 l^2, H = 0.8, band 6 (every third load)")
+    for side in (4.0, 8.0, 16.0):
+        _, covariance = plain.at(np.array([0.8]), np.array([side]), np.array([6.0]), plain.nodes[None, :])
+        print(side, np.round(np.sqrt(np.diagonal(covariance[0]))[::3], 3))
+    for share in (0.5, 0.9, 0.95):
+        covered = (measured <= inflation * scipy.stats.chi2.ppf(share, d)).mean()
+        print(
+            f"{share:.0%} regions cover {covered:.3f} of {measured.size} unseen specimens, inflation {inflation:.3f}"
+        )
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,128 @@
+"""Stiffness per area of joints of Gaussian surfaces: mean and scatter, fitted to computed ensembles.
+
+Lengths count in roll-off wavelengths l, heights in rms heights h, pressures in E* h/l and stiffnesses in E*/l. A
+specimen is then described by its Hurst exponent, its side L/l and its band l/l_c.
+"""
+
+from __future__ import annotations
+
+import json
+from dataclasses import dataclass
+from functools import cache
+from importlib.resources import files
+
+import numpy as np
+
+from roughcontact.validation import Array
+
+__all__ = ["BAND", "HURST", "LEAST_AREA", "SIDE", "JointEmulator", "joint_emulator", "terms"]
+
+HURST, SIDE, BAND = (0.3, 1.2), (4.0, 16.0), (4.0, 8.0)  # of the computed ensembles
+LEAST_AREA = 64.0  # l^2: below, single asperities carry the joint
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class JointEmulator:
+    """Mean and covariance of ln(K l/(E* A0)) over specimens, at nodes of ln(p l/(E* h)).
+
+    Attributes
+    ----------
+    nodes : array, shape (n,)
+        ln(p l/(E* h)), in equal steps.
+    mean, deviation : array, shape (10, n)
+        Coefficients of `terms`: of the mean, and of the logarithm of the standard deviation.
+    correlation : array, shape (n, n)
+        Of the nodes of one specimen.
+    misfit : array, shape (n,)
+        Standard deviation of the means of unseen ensembles about the fit, without their own scatter.
+    freedom : float
+        Number of specimens behind the covariance, less one for each ensemble.
+    inflation : float
+        Factor of the covariance with which 90 % intervals cover 90 % of unseen specimens.
+    """
+
+    nodes: Array
+    mean: Array
+    deviation: Array
+    correlation: Array
+    misfit: Array
+    freedom: float
+    inflation: float
+
+    def at(self, hurst: Array, side: Array, band: Array, pressure: Array) -> tuple[Array, Array]:
+        """Return mean and covariance at ln(p l/(E* h)).
+
+        Joints larger than the largest ensemble are made of independent pieces: their variance falls with the area,
+        and the mean of the logarithm rises to the logarithm of the mean.
+
+        Parameters
+        ----------
+        hurst, side, band : array, shape (m,)
+            Of m specimens.
+        pressure : array, shape (m, d)
+            ln(p l/(E* h)), within the nodes.
+
+        Returns
+        -------
+        mean : array, shape (m, d)
+            Of ln(K l/(E* A0)).
+        covariance : array, shape (m, d, d)
+        """
+        known = terms(hurst, np.minimum(side, SIDE[1]), band)
+        deviation = np.exp(known @ self.deviation)
+        share = np.minimum(SIDE[1] / side, 1)[:, None] ** 2  # of the variance of the largest ensemble
+        mean = known @ self.mean + deviation**2 * (1 - share) / 2
+        nodal = (
+            self.inflation * share[:, None] * deviation[:, :, None] * self.correlation * deviation[:, None, :]
+        )
+        nodal = nodal + np.diag(self.misfit**2)
+        weights = _weights((pressure - self.nodes[0]) / (self.nodes[1] - self.nodes[0]), self.nodes.size)
+        return (weights @ mean[:, :, None])[:, :, 0], weights @ nodal @ weights.swapaxes(1, 2)
+
+
+def terms(hurst: Array, side: Array, band: Array) -> Array:
+    """Return the polynomials of second degree in H, ln L/l and ln l/l_c, shape (m, 10), scaled to the ensembles."""
+    axes = [
+        2 * (x - low) / (high - low) - 1
+        for x, (low, high) in (
+            (np.asarray(hurst), HURST),
+            (np.log(side), np.log(SIDE)),
+            (np.log(band), np.log(BAND)),
+        )
+    ]
+    products = [a * b for k, a in enumerate(axes) for b in axes[k:]]
+    return np.stack([np.ones_like(axes[0]), *axes, *products], axis=-1)
+
+
+@cache
+def joint_emulator() -> JointEmulator:
+    """Return the emulator of the package, see ``benchmarks/joint_table.py``."""
+    text = files(__package__).joinpath("joint_table.json").read_text(encoding="utf-8")
+    table = json.loads(text)
+    return JointEmulator(
+        nodes=np.array(table["nodes"]),
+        mean=np.array(table["mean"]),
+        deviation=np.array(table["deviation"]),
+        correlation=np.array(table["correlation"]),
+        misfit=np.array(table["misfit"]),
+        freedom=table["freedom"],
+        inflation=table["inflation"],
+    )
+
+
+def _weights(place: Array, number: int) -> Array:
+    """Return the weights of cubic interpolation between nodes 0, 1, ..., shape (m, d, number)."""
+    first = np.clip(np.floor(place).astype(int) - 1, 0, number - 4)
+    t = place - first
+    near = np.stack(
+        [
+            -(t - 1) * (t - 2) * (t - 3) / 6,
+            t * (t - 2) * (t - 3) / 2,
+            -t * (t - 1) * (t - 3) / 2,
+            t * (t - 1) * (t - 2) / 6,
+        ],
+        axis=-1,
+    )
+    found = np.zeros((*place.shape, number))
+    np.put_along_axis(found, first[..., None] + np.arange(4), near, axis=-1)
+    return found

@@ -1,0 +1,186 @@
+"""The answer to what the stiffness of a joint tells of its topography."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from roughcontact.guesses import hinted
+from roughcontact.measurement.importance import Posterior
+from roughcontact.measurement.joint_model import JointModel
+from roughcontact.validation import Array, numeric, require
+
+__all__ = ["InferredParameter", "JointInference"]
+
+SHARES = (0.05, 0.5, 0.95)
+INFORMED = 0.3  # nats, a standard deviation of 0.74 of the prior's: with less, a measurement tells nothing
+
+
+@dataclass(frozen=True, slots=True)
+class InferredParameter:
+    """A parameter before and after the measurement.
+
+    Attributes
+    ----------
+    name, unit : str
+    prior, posterior : tuple of float
+        Quantiles of 5, 50 and 95 %.
+    nats : float
+        Information gained: divergence of Kullback and Leibler between posterior and prior.
+    """
+
+    name: str
+    unit: str
+    prior: tuple[float, float, float]
+    posterior: tuple[float, float, float]
+    nats: float
+
+    @property
+    def informed(self) -> bool:
+        """Whether the measurement tells of it: at least 0.3 nats."""
+        return self.nats >= INFORMED
+
+    def __str__(self) -> str:
+        """Return it in words."""
+        if not self.informed:
+            return f"{self.name}: no information ({self.nats:.2f} nats)"
+        low, middle, high = self.posterior
+        return f"{self.name}: {middle:.3g} {self.unit} ({low:.3g} to {high:.3g}), {self.nats:.2f} nats"
+
+
+@hinted
+@dataclass(frozen=True, eq=False, repr=False)
+class JointInference:
+    """What the stiffness of a joint tells of its topography.
+
+    Attributes
+    ----------
+    exponent : float
+        Local exponent a of K ~ p^a, of the joints of the posterior in the middle of the pressures.
+    p_value : float
+        Probability that a joint of the model departs as far from it as the measurement; NaN for one load and no
+        topography.
+    departs : str
+        In what the measurement departs most: "level", "slope" or "curvature".
+    parameters : tuple of InferredParameter
+        Rms height, roll-off wavelength, Hurst exponent, band and modulus; empty if the model does not fit, or for one
+        load.
+    pressures, stiffness, errors : array, shape (n,)
+        As measured [Pa], [Pa/m] and relative.
+    notes : tuple of str
+    """
+
+    exponent: float
+    p_value: float
+    departs: str
+    parameters: tuple[InferredParameter, ...]
+    pressures: Array
+    stiffness: Array
+    errors: Array
+    notes: tuple[str, ...]
+    _model: JointModel
+    _posterior: Posterior
+
+    @property
+    def fits(self) -> bool:
+        """Whether a joint of the model departs as far with a probability of 1 % or more."""
+        return not self.p_value < 0.01
+
+    @property
+    def effective_height(self) -> float:
+        """Median of the effective height ``rms^a rolloff^(1 - a)`` [m]; NaN if the model does not fit."""
+        return float(self._heights(0.5)) if self.fits else float("nan")
+
+    @numeric
+    def interval(self, level: float = 0.9) -> tuple[float, float]:
+        """Return the interval of the effective height.
+
+        Parameters
+        ----------
+        level : float
+            Its probability.
+
+        Returns
+        -------
+        tuple of float
+            Between the outer quantiles [m]; NaN if the model does not fit.
+
+        Raises
+        ------
+        ValueError
+            If the level is not between 0 and 1.
+        """
+        require(0 < level < 1, f"level must lie between 0 and 1, not {level:g}", place="level")
+        if not self.fits:
+            return float("nan"), float("nan")
+        low, high = self._heights(np.array([1 - level, 1 + level]) / 2)
+        return float(low), float(high)
+
+    @numeric(pressures="Pa")
+    def predicted(self, pressures: float | Array, level: float = 0.9) -> tuple[Array, Array, Array]:
+        """Return the stiffness of joints like this one.
+
+        Parameters
+        ----------
+        pressures : float or array, shape (n,)
+            Nominal pressures [Pa]; NaN is returned where they are outside the emulator.
+        level : float
+            Probability of the band.
+
+        Returns
+        -------
+        low, median, high : array, shape (n,)
+            Interfacial stiffness per area [Pa/m] of another joint of the posterior.
+        """
+        p = np.log(np.atleast_1d(pressures).astype(np.float64))
+        rng = np.random.default_rng(0)
+        points = self._posterior.points[
+            rng.choice(len(self._posterior.weights), 4000, p=self._posterior.weights)
+        ]
+        found = np.full((3, p.size), np.nan)
+        for j, each in enumerate(p):
+            one = np.array([each])
+            kept = points[self._model.inside(points, one)]
+            if len(kept) < len(points) / 2:
+                continue
+            mean, covariance = self._model.at(kept, one)
+            drawn = mean[:, 0] + np.sqrt(covariance[:, 0, 0]) * rng.standard_normal(len(kept))
+            found[:, j] = np.exp(np.quantile(drawn, [(1 - level) / 2, 0.5, (1 + level) / 2]))
+        return found[0], found[1], found[2]
+
+    @numeric(height="m")
+    def share_below(self, height: float) -> float:
+        """Return the probability that the effective height is below a height [m].
+
+        Parameters
+        ----------
+        height : float
+            [m].
+
+        Returns
+        -------
+        float
+        """
+        rms, rolloff = self._posterior.points[:, :2].T
+        below = self.exponent * rms + (1 - self.exponent) * rolloff < np.log(height)
+        return float(self._posterior.weights[below].sum())
+
+    @property
+    def width(self) -> float:
+        """Standard deviation of the logarithm of the effective height."""
+        rms, rolloff = self._posterior.points[:, :2].T
+        values, weights = self.exponent * rms + (1 - self.exponent) * rolloff, self._posterior.weights
+        return float(np.sqrt(weights @ (values - weights @ values) ** 2))
+
+    def _heights(self, shares: Array | float) -> Array:
+        rms, rolloff = self._posterior.points[:, :2].T
+        values = self.exponent * rms + (1 - self.exponent) * rolloff
+        return np.exp(self._posterior.quantiles(values, np.asarray(shares)))
+
+    def __repr__(self) -> str:
+        """Return the answer in one line."""
+        if not self.fits:
+            return f"JointInference(not this model: p = {self.p_value:.2g}, by its {self.departs})"
+        low, high = self.interval()
+        return f"JointInference(h_eff = {self.effective_height:.3g} m, {low:.3g} to {high:.3g} with 90 %)"
