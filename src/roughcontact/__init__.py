@@ -163,6 +163,13 @@ if TYPE_CHECKING or _LATE is None:
         reduced_shear_modulus as reduced_shear_modulus,
     )
     from roughcontact.mdr.foundation import foundation as foundation
+    from roughcontact.measurement.infer_joint import infer_joint as infer_joint
+    from roughcontact.measurement.joint_data import (
+        JointClosures as JointClosures,
+        JointStiffness as JointStiffness,
+    )
+    from roughcontact.measurement.joint_inference import JointInference as JointInference
+    from roughcontact.measurement.joint_topography import JointTopography as JointTopography
     from roughcontact.memory import MemoryWarning as MemoryWarning
     from roughcontact.slabs.slabs import Slabs as Slabs
     from roughcontact.solver.active_set import ActiveSet as ActiveSet

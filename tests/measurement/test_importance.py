@@ -44,7 +44,9 @@ def test_densities_are_normalised_and_draws_follow_them():
     points = np.stack([grid.ravel() for grid in grids], axis=1)
     cell = 5 / 1000 * 1.7 / 1000
     # Each of four ends falls between points of the sums, which are off by a cell of the density there.
-    assert np.exp(prior.log_density(points)).sum() * cell == pytest.approx(1, abs=2 * (5e-3 / 4 + 1.7e-3 * 1.2))
+    assert np.exp(prior.log_density(points)).sum() * cell == pytest.approx(
+        1, abs=2 * (5e-3 / 4 + 1.7e-3 * 1.2)
+    )
     uniform = np.random.default_rng(2).random((1000, 2))
     drawn = prior.draw(uniform)
     assert np.isfinite(prior.log_density(drawn)).all()
@@ -56,7 +58,9 @@ def test_a_posterior_at_a_limit_stays_inside():
     found = posterior(prior, likelihood(1.5, 0.1, np.array([1.0])), np.random.default_rng(3))
     assert found.points.max() <= 1
     # Below the limit, at 1 - v, the density is exp(-50 v - 50 v^2).
-    moments = [scipy.integrate.quad(lambda v, n=n: v**n * math.exp(-50 * v * (1 + v)), 0, 1)[0] for n in (0, 1)]
+    moments = [
+        scipy.integrate.quad(lambda v, n=n: v**n * math.exp(-50 * v * (1 + v)), 0, 1)[0] for n in (0, 1)
+    ]
     bound = 4.5 / math.sqrt(found.effective)  # of its standard deviation, which is at most the mean
     assert 1 - found.weights @ found.points[:, 0] == pytest.approx(moments[1] / moments[0], rel=bound)
 

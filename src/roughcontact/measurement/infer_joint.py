@@ -9,11 +9,12 @@ import numpy as np
 from roughcontact.errors import InputError, about
 from roughcontact.labels.note import Note, Rank, in_order
 from roughcontact.measurement.importance import Posterior, Prior, posterior
+from roughcontact.measurement.joint_data import JointData
 from roughcontact.measurement.joint_emulator import joint_emulator
-from roughcontact.measurement.joint_inference import SHARES, InferredParameter, JointInference
+from roughcontact.measurement.joint_inference import SHARES, UNLIKELY, InferredParameter, JointInference
 from roughcontact.measurement.joint_model import DISCREPANCY, JointModel
 from roughcontact.measurement.joint_topography import PARAMETERS, JointTopography, prior_of
-from roughcontact.validation import Array, RngLike, as_generator, numeric, positive
+from roughcontact.validation import Array, RngLike, as_generator, numeric, positive, shown
 
 __all__ = ["infer_joint"]
 
@@ -24,17 +25,14 @@ AT_EDGE, EDGE = (
 _UNITS = {"rms": "m", "rolloff": "m", "hurst": "", "band": "", "modulus": "Pa"}
 
 
-@numeric(pressures="Pa", stiffness="Pa/m", modulus="Pa", area="m^2")
+@numeric(modulus="Pa", area="m^2")
 def infer_joint(
-    pressures: float | Array,
-    stiffness: float | Array,
+    data: JointData,
     *,
-    errors: float | Array | None = None,
     modulus: float,
     modulus_error: float,
     area: float,
-    branch: Literal["loading", "unloading"] | None = None,
-    gain: float = 0.0,
+    branch: Literal["loading", "unloading"],
     profile: JointTopography | None = None,
     rng: RngLike = 0,
 ) -> JointInference:
@@ -44,25 +42,19 @@ def infer_joint(
     ``h^a l^(1 - a)`` alone, where a is the exponent of the stiffness, about 0.9. This height is inferred. Of Hurst
     exponent, h and l apart the stiffness tells little: `JointInference.parameters` states how much.
 
-    The model: an elastic joint whose faces together are Gaussian, with waves from l down to l/4 to l/8, as
-    `joint_emulator` holds them, and a discrepancy of 5 %.
+    The model: an elastic joint whose faces together are Gaussian, with waves from l down to l/4 to l/8, as computed
+    ensembles have them, and a discrepancy of 5 %.
 
     Parameters
     ----------
-    pressures : float or array, shape (n,)
-        Nominal pressures [Pa].
-    stiffness : float or array, shape (n,)
-        Interfacial stiffness per area K/A0 [Pa/m], without the compliance of the bodies.
-    errors : float or array, shape (n,)
-        Relative standard deviations of the stiffnesses, independent of each other.
+    data : JointStiffness or JointClosures
+        The measurement.
     modulus, modulus_error : float
         Reduced modulus E* [Pa] and its relative standard deviation.
     area : float
         Nominal area of the joint [m^2].
     branch : {"loading", "unloading"}
         The branch that was measured. On unloading the height is that of the faces as they were flattened.
-    gain : float
-        Relative standard deviation of an error that all stiffnesses share, such as that of a calibration.
     profile : JointTopography, optional
         The measured topography. The answer then states whether this is the joint of that topography.
     rng : int or Generator
@@ -75,40 +67,34 @@ def infer_joint(
     Raises
     ------
     ValueError
-        If `errors` or `branch` is missing, a value is not positive, the joint is smaller than 64 squares of the
-        roll-off wavelength, or the pressures are outside the emulator.
+        If the branch is not named, a value is not positive, the joint is smaller than 64 squares of the roll-off
+        wavelength, or the pressures are outside the emulator.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> p = np.array([7e6, 15e6, 30e6, 65e6, 140e6])
+    >>> data = rc.JointStiffness(p, 1.9e7 * p**0.88, errors=0.05, gain=0.03)
+    >>> found = rc.infer_joint(data, modulus=115e9, modulus_error=0.02, area=2.5e-6, branch="loading")
+    >>> low, high = found.interval(0.9)
+    >>> f"{found.effective_height * 1e6:.1f} um, {low * 1e6:.1f} to {high * 1e6:.1f}; K ~ p^{found.exponent:.2f}"
     """
     if branch not in ("loading", "unloading"):
         raise about(
-            "branch", f"must be 'loading' or 'unloading', not {branch!r}", "give the branch that was measured"
+            "branch",
+            f"must be 'loading' or 'unloading', not {shown(branch)}",
+            "name the one that was measured",
         )
-    if errors is None:
-        raise InputError(
-            "errors are missing", "give the relative standard deviation of each stiffness", "errors"
-        )
-    p, k, sd = np.broadcast_arrays(
-        np.atleast_1d(positive(pressures, "pressures")),
-        np.atleast_1d(positive(stiffness, "stiffness")),
-        np.atleast_1d(positive(errors, "errors")),
-    )
     for name, value in (("modulus", modulus), ("modulus_error", modulus_error), ("area", area)):
         positive(value, name)
-    positive(gain, "gain", zero=True)
     prior = prior_of(modulus, modulus_error, area, profile)
     model = JointModel(joint_emulator(), area)
-    log_p, log_k = np.log(p), np.log(k)
-    noise = np.diag(sd**2) + gain**2
-    found = posterior(
-        prior, lambda points: model.log_likelihood(points, log_p, log_k, noise), as_generator(rng)
-    )
-    _require_inside(model, found, log_p)
-    exponent = float(found.weights @ model.exponent(found.points, float(log_p.mean())))
-    known = profile is not None
-    chance, departs = np.nan, ""
-    if p.size > 1 or known:
-        chance, departs = model.p_value(prior if known else None, found, log_p, log_k, noise)
-    fits = not chance < 0.01
-    parameters = _parameters(prior, found) if fits and p.size > 1 else ()
+    found = posterior(prior, lambda points: model.log_likelihood(points, data), as_generator(rng))
+    _require_inside(model, found, data.log_pressures)
+    exponent = float(found.weights @ model.exponent(found.points, float(data.log_pressures.mean())))
+    chance, departs = model.p_value(data, None if profile is None else prior, found)
+    fits = not chance < UNLIKELY
     notes = [Note(Rank.LIMITED, f"elastic, Gaussian faces; a discrepancy of {DISCREPANCY:.0%} is assumed")]
     if branch == "unloading":
         notes.append(
@@ -116,18 +102,8 @@ def infer_joint(
         )
     if not fits:
         notes.append(Note(Rank.WRONG, _why_not(departs)))
-    return JointInference(
-        exponent,
-        float(chance),
-        departs,
-        parameters,
-        p.copy(),
-        k.copy(),
-        sd.copy(),
-        in_order(notes),
-        model,
-        found,
-    )
+    parameters = _parameters(prior, found) if fits and data.measured.size > 1 else ()
+    return JointInference(exponent, chance, departs, parameters, data, in_order(notes), model, found)
 
 
 def _why_not(departs: str) -> str:

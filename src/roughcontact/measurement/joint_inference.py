@@ -8,12 +8,14 @@ import numpy as np
 
 from roughcontact.guesses import hinted
 from roughcontact.measurement.importance import Posterior
+from roughcontact.measurement.joint_data import JointData
 from roughcontact.measurement.joint_model import JointModel
 from roughcontact.validation import Array, numeric, require
 
 __all__ = ["InferredParameter", "JointInference"]
 
 SHARES = (0.05, 0.5, 0.95)
+UNLIKELY = 0.01  # probability of a measurement below which the model is refused
 INFORMED = 0.3  # nats, a standard deviation of 0.74 of the prior's: with less, a measurement tells nothing
 
 
@@ -66,8 +68,8 @@ class JointInference:
     parameters : tuple of InferredParameter
         Rms height, roll-off wavelength, Hurst exponent, band and modulus; empty if the model does not fit, or for one
         load.
-    pressures, stiffness, errors : array, shape (n,)
-        As measured [Pa], [Pa/m] and relative.
+    data : JointData
+        The measurement.
     notes : tuple of str
     """
 
@@ -75,9 +77,7 @@ class JointInference:
     p_value: float
     departs: str
     parameters: tuple[InferredParameter, ...]
-    pressures: Array
-    stiffness: Array
-    errors: Array
+    data: JointData
     notes: tuple[str, ...]
     _model: JointModel
     _posterior: Posterior
@@ -85,7 +85,7 @@ class JointInference:
     @property
     def fits(self) -> bool:
         """Whether a joint of the model departs as far with a probability of 1 % or more."""
-        return not self.p_value < 0.01
+        return not self.p_value < UNLIKELY
 
     @property
     def effective_height(self) -> float:
@@ -144,7 +144,7 @@ class JointInference:
             kept = points[self._model.inside(points, one)]
             if len(kept) < len(points) / 2:
                 continue
-            mean, covariance = self._model.at(kept, one)
+            mean, covariance = self._model.stiffness(kept, one)
             drawn = mean[:, 0] + np.sqrt(covariance[:, 0, 0]) * rng.standard_normal(len(kept))
             found[:, j] = np.exp(np.quantile(drawn, [(1 - level) / 2, 0.5, (1 + level) / 2]))
         return found[0], found[1], found[2]

@@ -45,7 +45,7 @@ class JointTopography:
     Examples
     --------
     >>> import roughcontact as rc
-    >>> rc.JointTopography(rms="1.2 um", rms_error=0.1, rolloff="100 um", rolloff_error=0.3).hurst
+    >>> rc.JointTopography(rms=1.2e-6, rms_error=0.1, rolloff=1e-4, rolloff_error=0.3).hurst
     0.8
     """
 
