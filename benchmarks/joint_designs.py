@@ -24,7 +24,8 @@ POINTS = 512
 NAMES = ("hurst", "side", "band", "hardness")
 DESIGN, VALIDATION, HARD, CALIBRATION = 60, 20, 24, 400
 HARDNESS = (0.5, 20.0)  # over E* h/l: steel of rms slope 0.1 has 1.7
-SEEDS = {"design": 53, "validation": 54, "hardness": 55, "calibration": 56}
+SEEDS = {"design": 53, "validation": 54, "hardness": 55, "calibration": 56, "large": 57}
+LARGE = {"points": 2048, "hurst": 0.8, "side": 32.0, "band": 8.0}
 SIDES = (
     11.3,
     0.17,
@@ -78,6 +79,7 @@ def main() -> None:
     written("design", design, 64, "Gaussian surfaces from which the emulator of K/A0 is made.")
     written("validation", validation, 64, "Other points and surfaces, which the emulator has not seen.")
     written("hardness", every[DESIGN + VALIDATION :], 16, "First loading of surfaces that flow.")
+    written("large", [LARGE], 20, "Joints of 1 024 l^2, larger than any of the design.")
     written("calibration", joints(CALIBRATION), 1, "Joints drawn from the prior, one specimen each.")
 
 
