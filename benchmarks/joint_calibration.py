@@ -18,7 +18,10 @@ import scipy.stats
 import xarray
 
 import roughcontact as rc
-from roughcontact.measurement.joint_model import DECADE, DISCREPANCY
+from roughcontact.measurement.joint_emulator import joint_emulator
+from roughcontact.measurement.joint_model import JointModel, discrepancy
+from roughcontact.measurement.joint_plan import fisher_width
+from roughcontact.measurement.joint_topography import prior_of
 from roughcontact.study.export import export
 from roughcontact.study.store import Store
 
@@ -31,6 +34,8 @@ SIDE, SPREAD = (
     {"rms": 0.4, "rolloff": 0.17},
 )  # of the joint in ROLLOFF, and of the topography's statement
 UNKNOWN = 100.0  # error of the Hurst exponent: a prior without information
+AREA = (SIDE * ROLLOFF) ** 2
+TOPOGRAPHY = rc.JointTopography(RMS, SPREAD["rms"], ROLLOFF, SPREAD["rolloff"], 0.75, UNKNOWN)
 SHARES = np.linspace(0.01, 0.99, 99)
 
 Array = npt.NDArray[np.float64]
@@ -51,26 +56,28 @@ def measured(side: float, curve: Array, nodes: Array, rng: np.random.Generator) 
     rms = RMS * np.exp(SPREAD["rms"] * rng.standard_normal())
     modulus = MODULUS * np.exp(MODULUS_ERROR * rng.standard_normal())
     p = nodes * modulus * rms / rolloff
-    apart = np.log(p[:, None] / p) / DECADE
-    discrepancy = rng.multivariate_normal(np.zeros(p.size), DISCREPANCY**2 * np.exp(-(apart**2) / 2))
-    error = ERROR * rng.standard_normal(p.size) + GAIN * rng.standard_normal() + discrepancy
+    other = rng.multivariate_normal(np.zeros(p.size), discrepancy(np.log(p)))
+    error = ERROR * rng.standard_normal(p.size) + GAIN * rng.standard_normal() + other
     return np.log([rms, rolloff]), p, curve * modulus / rolloff * np.exp(error)
 
 
 def inferred(p: Array, stiffness: Array) -> rc.JointInference:
     """Return the answer for a joint of the calibration."""
-    topography = rc.JointTopography(RMS, SPREAD["rms"], ROLLOFF, SPREAD["rolloff"], 0.75, UNKNOWN)
+    data = rc.JointStiffness(p, stiffness, ERROR, GAIN)
     return rc.infer_joint(
-        p,
-        stiffness,
-        errors=ERROR,
-        gain=GAIN,
-        modulus=MODULUS,
-        modulus_error=MODULUS_ERROR,
-        area=(SIDE * ROLLOFF) ** 2,
-        branch="loading",
-        profile=topography,
+        data, modulus=MODULUS, modulus_error=MODULUS_ERROR, area=AREA, branch="loading", profile=TOPOGRAPHY
     )
+
+
+def wrong(found: rc.JointInference, name: str, p: Array, stiffness: Array) -> Array:
+    """Return stiffnesses whose level, slope or curvature departs by three of its predictive standard deviations."""
+    at = np.log(p)
+    contrasts = np.linalg.qr(np.vander(at - at.mean(), 3, increasing=True))[0].T
+    contrast = contrasts[("level", "slope", "curvature").index(name)]
+    mean, covariance = found.model.at(found.posterior.weights @ found.posterior.points[None], found.data)
+    departure = (np.log(stiffness) - mean[0]) @ contrast
+    step = 3 * np.sqrt(contrast @ covariance[0] @ contrast)
+    return stiffness * np.exp((np.sign(departure) * step - departure) * contrast)
 
 
 def main() -> None:
@@ -78,7 +85,7 @@ def main() -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("store", type=Path, nargs="?")
     data = specimens(parser.parse_args().store)
-    hursts, sides = data["hurst"].to_numpy(), data["side"].to_numpy()
+    hursts, sides, bands = (data[name].to_numpy() for name in ("hurst", "side", "band"))
     curves = data["stiffness_per_area"].transpose("row", "load").to_numpy().astype(float)
     nodes = data["pressure"].to_numpy().reshape(-1, curves.shape[1])[0].astype(float)
     rng = np.random.default_rng(1)
@@ -87,13 +94,21 @@ def main() -> None:
         truth, p, stiffness = measured(float(sides[k]), curves[k, LOADS], nodes[LOADS], rng)
         found = inferred(p, stiffness)
         weights = np.array([found.exponent, 1 - found.exponent])
+        point = np.array([*truth, hursts[k], np.log(bands[k]), np.log(MODULUS)])
+        model = JointModel(joint_emulator(), AREA)
+        bound = fisher_width(model, found.data, point, prior_of(MODULUS, MODULUS_ERROR, AREA, TOPOGRAPHY))
         rows.append(
             {
                 "hurst": hursts[k],
-                "height": found.share_below(float(np.exp(weights @ truth))),
-                "p": found.p_value,
+                "rank": found.share_below(float(np.exp(weights @ truth))),
+                "flagged": not found.fits,
+                "bound": found.width / bound,
                 "width": found.width,
                 **{each.name: each.nats for each in found.parameters},
+                **{
+                    name: not inferred(p, wrong(found, name, p, stiffness)).fits
+                    for name in ("slope", "curvature")
+                },
             }
         )
     report(rows)
@@ -101,17 +116,23 @@ def main() -> None:
 
 def report(rows: list[dict[str, float]]) -> None:
     """Print coverage of all and of the quarters of the prior, ranks, and the information gained."""
-    table = {name: np.array([row.get(name, np.nan) for row in rows]) for name in rows[0]}
-    rank = table["height"]
-    print(f"{len(rank)} joints; flagged as wrong {np.mean(table['p'] < 0.01):.3f}")
+    table = {name: np.array([row.get(name, np.nan) for row in rows], dtype=float) for name in rows[0]}
+    rank = table["rank"]
+    print(f"{len(rank)} joints; flagged: {table['flagged'].mean():.1%}")
+    for name in ("slope", "curvature"):
+        print(f"flagged with a {name} three predictive standard deviations off: {table[name].mean():.1%}")
     for share in (0.5, 0.9):
         inside = abs(rank - 0.5) < share / 2
         quarters = [inside[part].mean() for part in np.array_split(np.argsort(table["hurst"]), 4)]
-        print(f"{share:.0%}: {inside.mean():.3f} of all; quarters of H: {np.round(quarters, 3)}")
-    print("ranks uniform: p =", f"{scipy.stats.kstest(rank, 'uniform').pvalue:.2f}")
-    print("sd of ln h_eff:", f"{np.median(table['width']):.3f}")
+        print(
+            f"{share:.0%} intervals cover {inside.mean():.1%}; in quarters of H",
+            np.round(100 * np.array(quarters), 1),
+        )
+    print(f"ranks uniform: p = {scipy.stats.kstest(rank, 'uniform').pvalue:.2f}")
+    print(f"sd of ln h_eff, median: {np.median(table['width']):.3f}; over Fisher's bound:", end=" ")
+    print(np.round(np.quantile(table["bound"], [0.5, 0.9, 1]), 2))
     for name in ("rms", "rolloff", "hurst", "band", "modulus"):
-        print(f"nats of {name}: {np.nanmedian(table[name]):.3f}")
+        print(f"nats of {name}, median: {np.nanmedian(table[name]):.3f}")
 
 
 if __name__ == "__main__":

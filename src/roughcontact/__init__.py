@@ -169,6 +169,7 @@ if TYPE_CHECKING or _LATE is None:
         JointStiffness as JointStiffness,
     )
     from roughcontact.measurement.joint_inference import JointInference as JointInference
+    from roughcontact.measurement.joint_plan import JointPlan as JointPlan, plan_joint as plan_joint
     from roughcontact.measurement.joint_topography import JointTopography as JointTopography
     from roughcontact.memory import MemoryWarning as MemoryWarning
     from roughcontact.slabs.slabs import Slabs as Slabs

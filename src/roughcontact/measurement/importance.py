@@ -13,11 +13,12 @@ import scipy.optimize
 import scipy.special
 import scipy.stats
 
+from roughcontact.errors import InputError
 from roughcontact.validation import Array
 
 __all__ = ["Posterior", "Prior", "posterior"]
 
-ROUNDS, DRAWS = 5, 4096
+ROUNDS, DRAWS = 5, 2048
 TAILS = 5  # degrees of freedom of the proposals
 WIDER = 1.3  # proposals than what they are fitted to
 KEPT = 0.02  # effective share of the draws that a proposal is fitted to
@@ -113,6 +114,11 @@ def posterior(prior: Prior, log_likelihood: Callable[[Array], Array], rng: np.ra
 
     The first draws are those of the prior. Each further proposal is a distribution of Student with mean and covariance
     of all earlier draws; all draws are weighted by the mixture of all proposals (Cornuet and others 2012).
+
+    Raises
+    ------
+    InputError
+        If the likelihood of all draws of the prior is zero.
     """
     k = prior.mean.size
     uniform = scipy.stats.qmc.Sobol(k, rng=rng).random(4 * DRAWS)
@@ -120,6 +126,8 @@ def posterior(prior: Prior, log_likelihood: Callable[[Array], Array], rng: np.ra
     densities: list[Callable[[Array], Array]] = [prior.log_density]
     sizes = [len(points)]
     target = _target(prior, log_likelihood, points)
+    if not np.isfinite(target).any():
+        raise InputError("no parameters that are possible beforehand agree with the measurement")
     for _ in range(ROUNDS):
         weights = _tempered(target - _mixture(densities, sizes, points))
         mean = weights @ points

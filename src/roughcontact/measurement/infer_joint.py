@@ -12,7 +12,7 @@ from roughcontact.measurement.importance import Posterior, Prior, posterior
 from roughcontact.measurement.joint_data import JointData
 from roughcontact.measurement.joint_emulator import joint_emulator
 from roughcontact.measurement.joint_inference import SHARES, UNLIKELY, InferredParameter, JointInference
-from roughcontact.measurement.joint_model import DISCREPANCY, JointModel
+from roughcontact.measurement.joint_model import DISCREPANCY, DRAWN, JointModel
 from roughcontact.measurement.joint_topography import PARAMETERS, JointTopography, prior_of
 from roughcontact.validation import Array, RngLike, as_generator, numeric, positive, shown
 
@@ -90,8 +90,10 @@ def infer_joint(
         positive(value, name)
     prior = prior_of(modulus, modulus_error, area, profile)
     model = JointModel(joint_emulator(), area)
+    before = prior.draw(np.random.default_rng(0).random((DRAWN, len(PARAMETERS))))
+    _require_inside(model, before, np.full(DRAWN, 1 / DRAWN), data.log_pressures, 1 - 1 / DRAWN)
     found = posterior(prior, lambda points: model.log_likelihood(points, data), as_generator(rng))
-    _require_inside(model, found, data.log_pressures)
+    _require_inside(model, found.points, found.weights, data.log_pressures, AT_EDGE)
     exponent = float(found.weights @ model.exponent(found.points, float(data.log_pressures.mean())))
     chance, departs = model.p_value(data, None if profile is None else prior, found)
     fits = not chance < UNLIKELY
@@ -118,14 +120,16 @@ def _why_not(departs: str) -> str:
     )
 
 
-def _require_inside(model: JointModel, found: Posterior, log_p: Array) -> None:
-    place = model.place(found.points, log_p)
+def _require_inside(model: JointModel, points: Array, weights: Array, log_p: Array, most: float) -> None:
+    """Refuse pressures beyond the emulator, or nearly so, for more than a share of the draws."""
+    place = model.place(points, log_p)
     low, high = model.emulator.nodes[[0, -1]]
     near = (place.min(axis=1) < low + EDGE) | (place.max(axis=1) > high - EDGE)
-    if float(found.weights @ near) > AT_EDGE:
+    if float(weights @ near) > most:
+        first, last = np.exp(np.median(place, axis=0)[[0, -1]])
         raise InputError(
             f"the pressures lie beyond the emulator, which holds p l/(E* h) from {np.exp(low):.2g} to "
-            f"{np.exp(high):.2g}, and this joint has {np.exp(place.min()):.2g} to {np.exp(place.max()):.2g}",
+            f"{np.exp(high):.2g}, and such a joint has about {first:.2g} to {last:.2g}",
             "leave out the smallest or the largest pressures, or press a map: rc.loading_curve",
             "pressures",
         )

@@ -72,12 +72,11 @@ class JointEmulator:
         deviation = np.exp(known @ self.deviation)
         share = np.minimum(SIDE[1] / side, 1)[:, None] ** 2  # of the variance of the largest ensemble
         mean = known @ self.mean + deviation**2 * (1 - share) / 2
-        nodal = (
-            self.inflation * share[:, None] * deviation[:, :, None] * self.correlation * deviation[:, None, :]
-        )
-        nodal = nodal + np.diag(self.misfit**2)
         weights = _weights((pressure - self.nodes[0]) / (self.nodes[1] - self.nodes[0]), self.nodes.size)
-        return (weights @ mean[:, :, None])[:, :, 0], weights @ nodal @ weights.swapaxes(1, 2)
+        scattered = weights * (deviation * np.sqrt(self.inflation * share))[:, None, :]
+        missed = weights * self.misfit
+        covariance = scattered @ self.correlation @ scattered.swapaxes(1, 2) + missed @ missed.swapaxes(1, 2)
+        return (weights @ mean[:, :, None])[:, :, 0], covariance
 
 
 def terms(hurst: Array, side: Array, band: Array) -> Array:

@@ -71,6 +71,10 @@ class JointInference:
     data : JointData
         The measurement.
     notes : tuple of str
+    model : JointModel
+    posterior : Posterior
+        Weighted draws of the logarithms of rms height and roll-off wavelength, the Hurst exponent, and the logarithms
+        of band and modulus.
     """
 
     exponent: float
@@ -79,8 +83,8 @@ class JointInference:
     parameters: tuple[InferredParameter, ...]
     data: JointData
     notes: tuple[str, ...]
-    _model: JointModel
-    _posterior: Posterior
+    model: JointModel
+    posterior: Posterior
 
     @property
     def fits(self) -> bool:
@@ -135,16 +139,16 @@ class JointInference:
         """
         p = np.log(np.atleast_1d(pressures).astype(np.float64))
         rng = np.random.default_rng(0)
-        points = self._posterior.points[
-            rng.choice(len(self._posterior.weights), 4000, p=self._posterior.weights)
+        points = self.posterior.points[
+            rng.choice(len(self.posterior.weights), 4000, p=self.posterior.weights)
         ]
         found = np.full((3, p.size), np.nan)
         for j, each in enumerate(p):
             one = np.array([each])
-            kept = points[self._model.inside(points, one)]
+            kept = points[self.model.inside(points, one)]
             if len(kept) < len(points) / 2:
                 continue
-            mean, covariance = self._model.stiffness(kept, one)
+            mean, covariance = self.model.stiffness(kept, one)
             drawn = mean[:, 0] + np.sqrt(covariance[:, 0, 0]) * rng.standard_normal(len(kept))
             found[:, j] = np.exp(np.quantile(drawn, [(1 - level) / 2, 0.5, (1 + level) / 2]))
         return found[0], found[1], found[2]
@@ -162,21 +166,21 @@ class JointInference:
         -------
         float
         """
-        rms, rolloff = self._posterior.points[:, :2].T
+        rms, rolloff = self.posterior.points[:, :2].T
         below = self.exponent * rms + (1 - self.exponent) * rolloff < np.log(height)
-        return float(self._posterior.weights[below].sum())
+        return float(self.posterior.weights[below].sum())
 
     @property
     def width(self) -> float:
         """Standard deviation of the logarithm of the effective height."""
-        rms, rolloff = self._posterior.points[:, :2].T
-        values, weights = self.exponent * rms + (1 - self.exponent) * rolloff, self._posterior.weights
+        rms, rolloff = self.posterior.points[:, :2].T
+        values, weights = self.exponent * rms + (1 - self.exponent) * rolloff, self.posterior.weights
         return float(np.sqrt(weights @ (values - weights @ values) ** 2))
 
     def _heights(self, shares: Array | float) -> Array:
-        rms, rolloff = self._posterior.points[:, :2].T
+        rms, rolloff = self.posterior.points[:, :2].T
         values = self.exponent * rms + (1 - self.exponent) * rolloff
-        return np.exp(self._posterior.quantiles(values, np.asarray(shares)))
+        return np.exp(self.posterior.quantiles(values, np.asarray(shares)))
 
     def __repr__(self) -> str:
         """Return the answer in one line."""

@@ -13,11 +13,17 @@ from roughcontact.measurement.joint_data import JointData
 from roughcontact.measurement.joint_emulator import JointEmulator
 from roughcontact.validation import Array
 
-__all__ = ["DISCREPANCY", "JointModel"]
+__all__ = ["DISCREPANCY", "JointModel", "discrepancy"]
 
 DISCREPANCY = 0.05  # of K, relative: what separates a real joint from a Gaussian elastic one
 DRAWN = 2000  # joints that a measurement is compared with
 DECADE = math.log(10)  # of pressure, over which the discrepancy is correlated
+
+
+def discrepancy(log_pressures: Array) -> Array:
+    """Return the covariance of ln(K/A0) that separates real joints from the model, shape (n, n)."""
+    apart = (log_pressures[:, None] - log_pressures) / DECADE
+    return np.asarray(DISCREPANCY**2 * np.exp(-(apart**2) / 2))
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -50,8 +56,7 @@ class JointModel:
         _, rolloff, hurst, band, modulus = points.T
         side = math.sqrt(self.area) * np.exp(-rolloff)
         mean, covariance = self.emulator.at(hurst, side, np.exp(band), self.place(points, log_pressures))
-        apart = (log_pressures[:, None] - log_pressures) / DECADE
-        return mean + (modulus - rolloff)[:, None], covariance + DISCREPANCY**2 * np.exp(-(apart**2) / 2)
+        return mean + (modulus - rolloff)[:, None], covariance + discrepancy(log_pressures)
 
     def at(self, points: Array, data: JointData) -> tuple[Array, Array]:
         """Return mean and covariance of what is measured, its noise included, shapes (m, d) and (m, d, d)."""
