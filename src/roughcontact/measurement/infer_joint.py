@@ -1,4 +1,4 @@
-"""What the measured stiffness of a joint tells of its topography."""
+"""The topography of a joint, inferred from its measured stiffness."""
 
 from __future__ import annotations
 
@@ -36,11 +36,11 @@ def infer_joint(
     profile: JointTopography | None = None,
     rng: RngLike = 0,
 ) -> JointInference:
-    """Return what the stiffness of a joint tells of its topography.
+    """Return the effective height of a joint, inferred from its stiffness.
 
-    The stiffness of a large joint depends on its rms height h and its roll-off wavelength l through an effective height
-    ``h^a l^(1 - a)`` alone, where a is the exponent of the stiffness, about 0.9. This height is inferred. Of Hurst
-    exponent, h and l apart the stiffness tells little: `JointInference.parameters` states how much.
+    The stiffness of a large joint depends on its rms height h and its roll-off wavelength l only through an effective
+    height ``h^a l^(1 - a)``, where a is the exponent of the stiffness, about 0.9. This height is inferred. About Hurst
+    exponent, h and l separately the stiffness holds little information: `JointInference.parameters` states how much.
 
     The model: an elastic joint whose faces together are Gaussian, with waves from l down to l/4 to l/8, as computed
     ensembles have them, and a discrepancy of 5 %.

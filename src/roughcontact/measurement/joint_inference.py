@@ -1,4 +1,4 @@
-"""The answer to what the stiffness of a joint tells of its topography."""
+"""The answer of an inference from the stiffness of a joint."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ __all__ = ["InferredParameter", "JointInference"]
 
 SHARES = (0.05, 0.5, 0.95)
 UNLIKELY = 0.01  # probability of a measurement below which the model is refused
-INFORMED = 0.3  # nats, a standard deviation of 0.74 of the prior's: with less, a measurement tells nothing
+INFORMED = 0.3  # nats, a standard deviation of 0.74 of the prior's: with less, a parameter counts as unknown
 
 
 @dataclass(frozen=True, slots=True)
@@ -40,7 +40,7 @@ class InferredParameter:
 
     @property
     def informed(self) -> bool:
-        """Whether the measurement tells of it: at least 0.3 nats."""
+        """Whether the measurement holds information about it: at least 0.3 nats."""
         return self.nats >= INFORMED
 
     def __str__(self) -> str:
@@ -54,7 +54,7 @@ class InferredParameter:
 @hinted
 @dataclass(frozen=True, eq=False, repr=False)
 class JointInference:
-    """What the stiffness of a joint tells of its topography.
+    """The topography of a joint, inferred from its stiffness.
 
     Attributes
     ----------

@@ -1,4 +1,4 @@
-"""How well a measurement that is planned will tell the effective height of a joint."""
+"""How narrow the interval of the effective height of a joint will be after a planned measurement."""
 
 from __future__ import annotations
 
