@@ -103,16 +103,16 @@ def infer_joint(
             Note(Rank.LIMITED, "on unloading the height is that of the faces as they were flattened")
         )
     if not fits:
-        notes.append(Note(Rank.WRONG, _why_not(departs)))
+        notes.append(Note(Rank.WRONG, _why_not(departs, profile)))
     parameters = _parameters(prior, found) if fits and data.measured.size > 1 else ()
     return JointInference(exponent, chance, departs, parameters, data, in_order(notes), model, found)
 
 
-def _why_not(departs: str) -> str:
-    if departs == "level":
+def _why_not(departs: str, profile: JointTopography | None) -> str:
+    if departs == "level" and profile is not None:
         return (
-            "this is not the joint of the topography: its stiffness departs from that of all such joints. Waviness "
-            "beyond the measured waves makes a joint softer"
+            "not the joint of this topography: its stiffness departs from that of all such joints. Waviness beyond the "
+            "measured waves makes a joint softer"
         )
     return (
         f"not this model: the {departs} of the stiffness departs from that of all joints. Bodies or a machine in "

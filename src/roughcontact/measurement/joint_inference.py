@@ -61,8 +61,7 @@ class JointInference:
     exponent : float
         Local exponent a of K ~ p^a, of the joints of the posterior in the middle of the pressures.
     p_value : float
-        Probability that a joint of the model departs as far from it as the measurement; NaN for one load and no
-        topography.
+        Probability that a joint of the model departs as far from it as the measurement.
     departs : str
         In what the measurement departs most: "level", "slope" or "curvature".
     parameters : tuple of InferredParameter

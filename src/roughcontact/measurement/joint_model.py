@@ -93,27 +93,24 @@ class JointModel:
     def p_value(self, data: JointData, prior: Prior | None, found: Posterior) -> tuple[float, str]:
         """Return the probability that a joint of the model departs as far in level, slope or curvature, and in which.
 
-        Slope and curvature against ln p are compared with joints of the posterior, the level with joints of the prior,
-        if one is given. The smallest of the probabilities counts, times their number.
+        Level, slope and curvature against ln p are compared with joints of the posterior, and the level with joints of
+        the prior too, if one is given. The smallest of the probabilities counts, times their number.
         """
         size = data.measured.size
         at = np.log(data.pressures[-size:])
         contrasts = np.linalg.qr(np.vander(at - at.mean(), min(size, 3), increasing=True))[0].T / data.scale
         rng = np.random.default_rng(0)
         drawn = found.points[rng.choice(len(found.weights), DRAWN, p=found.weights)]
-        chances = {
-            name: self._beyond(data, drawn, contrast)
-            for name, contrast in list(zip(("level", "slope", "curvature"), contrasts, strict=False))[1:]
-        }
+        chances = [
+            (self._beyond(data, drawn, contrast), name)
+            for name, contrast in zip(("level", "slope", "curvature"), contrasts, strict=False)
+        ]
         if prior is not None:
             points = prior.draw(rng.random((DRAWN, prior.mean.size)))
-            chances["level"] = self._beyond(
-                data, points[self.inside(points, data.log_pressures)], contrasts[0]
-            )
-        if not chances:
-            return math.nan, ""
-        worst = min(chances, key=lambda name: chances[name])
-        return min(1.0, len(chances) * chances[worst]), worst
+            points = points[self.inside(points, data.log_pressures)]
+            chances.append((self._beyond(data, points, contrasts[0]), "level"))
+        chance, departs = min(chances)
+        return min(1.0, len(chances) * chance), departs
 
     def _beyond(self, data: JointData, points: Array, contrast: Array) -> float:
         """Return the probability that a contrast of other measurements is as far out as that of the data."""

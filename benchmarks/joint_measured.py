@@ -1,0 +1,58 @@
+"""Measured closures of fractures in rock, held against the model of `rc.infer_joint`.
+
+    python benchmarks/joint_measured.py FOLDER/*_stress_closure.txt
+
+Files of the public repository danielvogler/hm_coupled_fracture_response (granodiorite; Vogler and others, J. Geophys.
+Res. Solid Earth 123, 1186 (2018)): number, displacement [mm] and normal stress [MPa], first up, then down. Specimens of
+122 mm; Young's modulus 10 to 12 GPa measured, Poisson's ratio 0.33 assumed. The resolution is not stated: 1 um is assumed.
+Mated faces of a fracture are not a Gaussian joint: the answer that was expected before the first run is "not this model".
+"""
+
+from __future__ import annotations
+
+import math
+import sys
+from pathlib import Path
+
+import numpy as np
+
+import roughcontact as rc
+
+YOUNG, POISSON, ERROR = 11e9, 0.33, 0.1
+RESOLUTION = 1e-6
+AREA = math.pi * 0.061**2
+
+
+def branches(path: Path) -> dict[str, tuple[np.ndarray, np.ndarray]]:
+    """Return pressures [Pa] and closures [m] of both branches, in the order of increasing pressure."""
+    rows = [line.split(",") for line in path.read_text(encoding="utf-8").splitlines()[2:] if line.strip()]
+    closure, pressure = (
+        np.array([float(row[k]) for row in rows]) * unit for k, unit in ((1, 1e-3), (2, 1e6))
+    )
+    turn = int(pressure.argmax())
+    down = slice(turn, None)
+    return {
+        "loading": (pressure[: turn + 1], closure[: turn + 1]),
+        "unloading": (pressure[down][::-1], closure[down][::-1]),
+    }
+
+
+def main() -> None:
+    """Run it."""
+    modulus = YOUNG / (2 * (1 - POISSON**2))
+    for path in map(Path, sys.argv[1:]):
+        for branch, (p, closure) in branches(path).items():
+            rising = np.concatenate([[True], np.diff(p) > 0])
+            data = rc.JointClosures(p[rising], closure[rising], RESOLUTION)
+            stiffness = np.diff(p[rising]) / np.diff(closure[rising])
+            middle = np.sqrt(p[rising][1:] * p[rising][:-1])
+            seen = np.isfinite(stiffness) & (stiffness > 0)
+            exponent = np.polyfit(np.log(middle[seen]), np.log(stiffness[seen]), 1)[0]
+            found = rc.infer_joint(data, modulus=modulus, modulus_error=ERROR, area=AREA, branch=branch)
+            print(
+                f"{path.name}, {branch}: secants K ~ p^{exponent:.2f}, the model's {found.exponent:.2f}: {found!r}"
+            )
+
+
+if __name__ == "__main__":
+    main()
