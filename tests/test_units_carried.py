@@ -107,6 +107,8 @@ MORE = [
     (rc.midpoint_line, {"grid": rc.Grid(65, 1e-6), "hurst": 0.8, "displacement": 1e-7}),
     (rc.midpoint_surface, {"grid": rc.Grid((17, 17), 1e-6), "hurst": 0.8, "displacement": 1e-7}),
     (rc.midpoint_surface, {"grid": rc.Grid((17, 17), 1e-6), "hurst": 0.8, "rms": 1e-7}),
+    (rc.resampled, {"surface": BALL, "grid": BALL.grid, "shift": (1e-6, 2e-6)}),
+    (rc.combined, {"lower": BALL, "upper": BALL, "shift": (0.0, 0.0)}),
     (rc.height_histogram, {"surface": ROUGH, "bins": 5, "ends": (-1e-7, 1e-7)}),
     (rc.hurst_exponent, {"surface": ROUGH, "q_min": 3e5, "q_max": 3e6}),
     (rc.half_space, {"grid": FREE, "modulus": 1e9}),
@@ -247,6 +249,7 @@ UNITS = {
 }
 UNIT = {name: unit for unit, names in UNITS.items() for name in names.split()}
 UNIT |= {
+    "shift": "m",
     "half_angle": "rad",
     "m4": "1/m^2",
     "density": "m^4",
@@ -257,6 +260,7 @@ UNIT |= {
 UNIT |= {"frequency": "Hz", "densities": "kg/m^3"}
 UNIT |= {"film": "m^2*K/W", "gap": "m", "temperature": "K", "viscosity": "Pa*s", "drop": "V"}
 UNIT |= {
+    "shift": "m",
     "compliances": "1/Pa",
     "compliance": "1/Pa",
     "fluidity": "1/(Pa*s)",

@@ -228,6 +228,7 @@ if TYPE_CHECKING or _LATE is None:
     )
     from roughcontact.surface.parameters.profile import profile_parameters as profile_parameters
     from roughcontact.surface.preparation.combine import combined as combined, resampled as resampled
+    from roughcontact.surface.preparation.shift import MapShift as MapShift, shift_between as shift_between
     from roughcontact.surface.preparation.spikes import Spikes as Spikes, find_spikes as find_spikes
     from roughcontact.surface.radial import RadialProfile as RadialProfile
     from roughcontact.surface.surface import Surface as Surface
