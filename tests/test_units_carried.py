@@ -37,6 +37,12 @@ STICKING = {"depth": 0.0, "force": 1e-6, "pressure": 1e3, "mean_gap": 2e-7}
 STICKY = rc.Adhesion(work=10e-3, range=4e-9)
 STRETCHED = rc.StretchedSpectrum(LAW, 2.0)
 DIRECTIONAL = rc.DirectionalSpectrum(lambda qy, qx: 1 / (1 + qy**2 + qx**2))
+_BINS = np.geomspace(4e5, 1.6e6, 5)
+_TENTHS = np.full(5, 0.1)
+MEASURED = rc.CombinedSpectrum(
+    *(_BINS, 1e-26 * _BINS / _BINS, "C2D", _TENTHS, _TENTHS, 90 * _TENTHS, ("map",), _TENTHS[None]),
+    *(4e5, 1.6e6, (), ()),
+)
 BALL = rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4)
 JOINT = rc.specified(sigma=1e-6, slope=0.1)
 CURVE = rc.loading_curve(BALL, 1e9, forces=np.geomspace(1e-2, 1e-1, 6))
@@ -107,6 +113,7 @@ MORE = [
     (rc.midpoint_line, {"grid": rc.Grid(65, 1e-6), "hurst": 0.8, "displacement": 1e-7}),
     (rc.midpoint_surface, {"grid": rc.Grid((17, 17), 1e-6), "hurst": 0.8, "displacement": 1e-7}),
     (rc.midpoint_surface, {"grid": rc.Grid((17, 17), 1e-6), "hurst": 0.8, "rms": 1e-7}),
+    (rc.press_draws, {"spectrum": MEASURED, "modulus": 1e9, "pressure": 1e5, "size": 1.6e-5, "draws": 2}),
     (rc.resampled, {"surface": BALL, "grid": BALL.grid, "shift": (1e-6, 2e-6)}),
     (rc.combined, {"lower": BALL, "upper": BALL, "shift": (0.0, 0.0)}),
     (rc.height_histogram, {"surface": ROUGH, "bins": 5, "ends": (-1e-7, 1e-7)}),

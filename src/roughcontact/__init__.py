@@ -172,6 +172,7 @@ if TYPE_CHECKING or _LATE is None:
     )
     from roughcontact.measurement.measurement import Measurement as Measurement
     from roughcontact.measurement.measurements import Measurements as Measurements
+    from roughcontact.measurement.press_draws import PressedDraws as PressedDraws, press_draws as press_draws
     from roughcontact.memory import MemoryWarning as MemoryWarning
     from roughcontact.slabs.slabs import Slabs as Slabs
     from roughcontact.solver.active_set import ActiveSet as ActiveSet
