@@ -15,7 +15,7 @@ from roughcontact.measurement.band import PER_DECADE
 from roughcontact.surface.analysis.power import PowerSpectrum
 from roughcontact.surface.analysis.spectra import power_spectrum
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import Array, Mask
+from roughcontact.validation import Array, Mask, require
 
 __all__ = ["LineSpectra", "line_spectra"]
 
@@ -94,6 +94,7 @@ def line_spectra(surface: Surface, direction: Literal["x", "y"] = "x") -> LineSp
     >>> bool(abs(rc.line_spectra(rough).ratio.mean() - 0.69) < 0.1)
     True
     """
+    require(direction in ("x", "y"), f"direction must be 'x' or 'y', not {direction!r}", place="direction")
     if surface.grid.ndim != 2 or min(surface.shape) < _LEAST:
         raise about(
             "surface",
@@ -138,11 +139,17 @@ def line_spectra(surface: Surface, direction: Literal["x", "y"] = "x") -> LineSp
     # Only neighbouring waves are correlated by a window, so that a bin of one wave has both degrees of freedom.
     degrees = 2 * waves / (1 + (1 / alone.freedom[0] - 1) * (1 - 1 / waves))
     binned = np.array([mean(row) for row in fine])
-    number = mean(number)
-    density = np.median(binned, axis=0) / _factor(degrees, number)
-    freedom = whole.rebinned(PER_DECADE).freedom / _MEDIAN_ERROR**2
-    average = power_spectrum(surface, direction).rebinned(PER_DECADE)
-    return LineSpectra(average, replace(average, density=density, freedom=freedom), mean(ratio), spoilt)
+    number = mean(number * whole.density) / np.maximum(
+        mean(whole.density), 1e-300
+    )  # the strongest wave counts
+    density, freedom = (
+        np.median(binned, axis=0) / _factor(degrees, number),
+        whole.rebinned(PER_DECADE).freedom,
+    )
+    # All waves of a bin count alike, as in the median.
+    average = replace(power_spectrum(surface, direction).rebinned(PER_DECADE), density=binned.mean(axis=0))
+    median = replace(average, density=density, freedom=freedom / _MEDIAN_ERROR**2)
+    return LineSpectra(average, median, mean(ratio), spoilt)
 
 
 def _factor(degrees: Array | float, number: Array) -> Array:
