@@ -3,9 +3,9 @@
     python benchmarks/joint_measured.py FOLDER/*_stress_closure.txt
 
 Files of the public repository danielvogler/hm_coupled_fracture_response (granodiorite; Vogler and others, J. Geophys.
-Res. Solid Earth 123, 1186 (2018)): number, displacement [mm] and normal stress [MPa], first up, then down. Specimens of
-122 mm; Young's modulus 10 to 12 GPa measured, Poisson's ratio 0.33 assumed. The resolution is not stated: 1 um is assumed.
-Mated faces of a fracture are not a Gaussian joint: the answer that was expected before the first run is "not this model".
+Res. Solid Earth 123, 1186 (2018)): number, displacement [mm] and normal stress [MPa], first up, then down. Specimens
+of 122 mm; Young's modulus 10 to 12 GPa measured, Poisson's ratio 0.33 assumed. The resolution is not stated: 1 um is
+assumed. Mated faces of a fracture are no Gaussian joint: the answer expected before the first run is "not this model".
 """
 
 from __future__ import annotations

@@ -64,6 +64,7 @@ QUESTIONS = {
     "hardness": "concepts/plastic",
     "unload and reload": "how-to/plastic-loops",
     "prepare a surface": "how-to/preparing",
+    "shift of two maps before and after": "how-to/preparing",
     "how spikes are recognised": "concepts/spikes",
     "json output": "reference/json-output",
     "joint known by two numbers": "how-to/specified",

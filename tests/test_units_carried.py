@@ -37,6 +37,12 @@ STICKING = {"depth": 0.0, "force": 1e-6, "pressure": 1e3, "mean_gap": 2e-7}
 STICKY = rc.Adhesion(work=10e-3, range=4e-9)
 STRETCHED = rc.StretchedSpectrum(LAW, 2.0)
 DIRECTIONAL = rc.DirectionalSpectrum(lambda qy, qx: 1 / (1 + qy**2 + qx**2))
+_BINS = np.geomspace(4e5, 1.6e6, 5)
+_TENTHS = np.full(5, 0.1)
+MEASURED = rc.CombinedSpectrum(
+    *(_BINS, 1e-26 * _BINS / _BINS, "C2D", _TENTHS, _TENTHS, 90 * _TENTHS, ("map",), _TENTHS[None]),
+    *(4e5, 1.6e6, (), ()),
+)
 BALL = rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4)
 JOINT = rc.specified(sigma=1e-6, slope=0.1)
 CURVE = rc.loading_curve(BALL, 1e9, forces=np.geomspace(1e-2, 1e-1, 6))
@@ -107,6 +113,9 @@ MORE = [
     (rc.midpoint_line, {"grid": rc.Grid(65, 1e-6), "hurst": 0.8, "displacement": 1e-7}),
     (rc.midpoint_surface, {"grid": rc.Grid((17, 17), 1e-6), "hurst": 0.8, "displacement": 1e-7}),
     (rc.midpoint_surface, {"grid": rc.Grid((17, 17), 1e-6), "hurst": 0.8, "rms": 1e-7}),
+    (rc.press_draws, {"spectrum": MEASURED, "modulus": 1e9, "pressure": 1e5, "size": 1.6e-5, "draws": 2}),
+    (rc.resampled, {"surface": BALL, "grid": BALL.grid, "shift": (1e-6, 2e-6)}),
+    (rc.combined, {"lower": BALL, "upper": BALL, "shift": (0.0, 0.0)}),
     (rc.height_histogram, {"surface": ROUGH, "bins": 5, "ends": (-1e-7, 1e-7)}),
     (rc.hurst_exponent, {"surface": ROUGH, "q_min": 3e5, "q_max": 3e6}),
     (rc.half_space, {"grid": FREE, "modulus": 1e9}),
@@ -227,6 +236,7 @@ MORE = [
     (SOFT_MATERIAL.shifted, {"factor": 10.0, "temperature": 300.0}),
     *((VISCO.transfer, {"curve": CURVE, "material": SOFT_MATERIAL, "times": [0.0, 1.0], name: values})
       for name, values in (("forces", [2e-2, 3e-2]), ("depths", [2.1e-6, 2.5e-6]))),
+    (rc.Instrument, {"resolution": 1e-6, "tip_radius": 2e-8}),
     (rc.plot.von_mises_section, {"solution": PRESSED, "solid": STEEL, "deepest": 5e-6}),
 ]  # fmt: skip
 # Units of parameters by their names, and where a name means something else.
@@ -234,7 +244,7 @@ UNITS = {
     "m": "radius inner outer side centre spacing edges heights below above range rms rms_band rolloff long_cutoff"
     " short_cutoff displacement displacements ends depth depths mean_gap mean_gaps deepest tip_radius thickness"
     " reference_length section_length amplitude wavelength rise separation sigma ra rz correlation_length size grid"
-    " slip_length closing_gap seal_width circumference head hole longest_wave",
+    " resolution slip_length closing_gap seal_width circumference head hole longest_wave",
     "s": "times time band relaxation_time retardation_time",
     "rad/s": "angular_frequency angular_frequencies",
     "Pa": "equilibrium instantaneous moduli storage loss bulk"
@@ -247,6 +257,7 @@ UNITS = {
 }
 UNIT = {name: unit for unit, names in UNITS.items() for name in names.split()}
 UNIT |= {
+    "shift": "m",
     "half_angle": "rad",
     "m4": "1/m^2",
     "density": "m^4",
@@ -257,6 +268,7 @@ UNIT |= {
 UNIT |= {"frequency": "Hz", "densities": "kg/m^3"}
 UNIT |= {"film": "m^2*K/W", "gap": "m", "temperature": "K", "viscosity": "Pa*s", "drop": "V"}
 UNIT |= {
+    "shift": "m",
     "compliances": "1/Pa",
     "compliance": "1/Pa",
     "fluidity": "1/(Pa*s)",

@@ -6,6 +6,7 @@ import pytest
 import roughcontact as rc
 from followed import (
     INFINITE,
+    LARGE,
     ODD,
     PERIODIC,
     PLANE,
@@ -122,6 +123,33 @@ HEIGHTS = [
         lambda: rc.combined(PROFILE, PROFILE, turned_about="x"),
         "a line is turned about 'y', which reverses it, or not at all (None)",
         *each(lambda about: rc.combined(PROFILE, PROFILE, turned_about=about), "y", None),
+    ),
+    row(
+        lambda: rc.resampled(ROUGH, PLANE, shift=1e-6),
+        "shift [m] must be one length an axis, 2 in all, not 1e-06",
+        lambda: rc.resampled(ROUGH, PLANE, shift=(1e-6, 1e-6)),
+    ),
+    row(
+        lambda: rc.shift_between(PROFILE, PROFILE),
+        "the shift is found between maps, not profiles: give surfaces of two axes",
+        lambda: rc.shift_between(LARGE, LARGE),
+    ),
+    row(
+        lambda: rc.shift_between(LARGE, rc.resampled(LARGE, rc.Grid((33, 33), 2e-6))),
+        "both maps need cells of one size, not (1e-06, 1e-06) and (2e-06, 2e-06) m: bring one onto cells of the other",
+        lambda: rc.shift_between(
+            LARGE, rc.resampled(rc.resampled(LARGE, rc.Grid((33, 33), 2e-6)), LARGE.grid)
+        ),
+    ),
+    row(
+        lambda: rc.shift_between(LARGE, ROUGH),
+        "second needs at least 32 cells along each axis, not (16, 16): use a larger map",
+        lambda: rc.shift_between(LARGE, LARGE),
+    ),
+    row(
+        lambda: rc.shift_between(LARGE, heights(LARGE.grid, seed=7)),
+        "give maps of one place that are not rotated or scaled",
+        lambda: rc.shift_between(LARGE, LARGE.cropped(slice(10, 60), slice(5, 60))),
     ),
     row(
         lambda: rc.resampled(ROUGH, PLANE, interpolation="spline"),

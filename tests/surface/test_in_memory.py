@@ -32,6 +32,7 @@ ANALYSES = {
     "find_spikes": lambda plane, line: rc.find_spikes(plane),
     "height_histogram": lambda plane, line: rc.height_histogram(plane),
     "box_counting_dimension": lambda plane, line: rc.box_counting_dimension(plane),
+    "shift_between": lambda plane, line: rc.shift_between(plane, plane).correlation,
     "loading_laws": lambda plane, line: rc.loading_laws(plane, 1e9, "gw")[0].predict("stiffness", 1e-3),
     "scan_spectrum": lambda plane, line: rc.mdr.line_scan.scan_spectrum(line)(np.array([1e5, 1e6])),
     "adhesive_state": lambda plane, line: rc.adhesive_state(plane, 1e9, STICKY, depth=1e-8).force,

@@ -4,18 +4,20 @@ from __future__ import annotations
 
 import math
 import warnings
+from collections.abc import Iterable
 from typing import Any, Literal, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 import scipy.sparse
 
 from roughcontact.errors import InputError, about
 from roughcontact.grid import Grid
 from roughcontact.surface.in_memory import on_host_only
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import Array, numeric, require
+from roughcontact.validation import Array, finite, numeric, require, shown
 
-__all__ = ["combined", "resampled"]
+__all__ = ["combined", "require_comparable", "resampled", "same_spacing"]
 
 Interpolation: TypeAlias = Literal["cubic", "linear"]
 
@@ -23,7 +25,7 @@ Interpolation: TypeAlias = Literal["cubic", "linear"]
 _SAME = 1e-9
 
 
-@numeric
+@numeric(shift="m")
 @on_host_only
 def combined(
     lower: Surface,
@@ -32,6 +34,7 @@ def combined(
     turned_about: Literal["x", "y"] | None = "y",
     grid: Grid | None = None,
     interpolation: Interpolation = "cubic",
+    shift: npt.ArrayLike | None = None,
 ) -> Surface:
     """Return the surface that replaces two rough bodies in contact with a flat: the sum of their heights.
 
@@ -51,6 +54,8 @@ def combined(
     interpolation : {"cubic", "linear"}
         How a surface on another grid is resampled, see `resampled` for its cost. Surfaces on equal grids are added
         without interpolation.
+    shift : tuple of float, optional
+        ``(dy, dx)`` by which the upper body is moved after it is turned over [m], as `shift_between` finds it.
 
     Returns
     -------
@@ -81,21 +86,28 @@ def combined(
     target = grid
     if target is None:
         target = upper.grid if upper.grid.cell_area < lower.grid.cell_area * (1 - _SAME) else lower.grid
-    below, above = (resampled(body, target, interpolation=interpolation) for body in (lower, turned))
+    below = resampled(lower, target, interpolation=interpolation)
+    above = resampled(turned, target, interpolation=interpolation, shift=shift)
     heights = below.heights + above.heights
     if np.isnan(heights).all():
         raise InputError("the two surfaces have no measured point in common: nothing can touch")
     line = "combined with: " + ("; ".join(above.provenance) or "a surface")
     whole = below.with_heights(heights, line, target)
-    if loss := _lost(lower.grid, upper.grid, target):
+    if loss := _lost(lower.grid, upper.grid, target, _moved(shift, target)):
         warnings.warn(f"combined: {loss}", stacklevel=2)
         whole = whole.with_heights(heights, loss)
     return whole
 
 
-@numeric
+@numeric(shift="m")
 @on_host_only
-def resampled(surface: Surface, grid: Grid, *, interpolation: Interpolation = "cubic") -> Surface:
+def resampled(
+    surface: Surface,
+    grid: Grid,
+    *,
+    interpolation: Interpolation = "cubic",
+    shift: npt.ArrayLike | None = None,
+) -> Surface:
     """Return the heights interpolated at the cell centres of another grid with the same middle.
 
     Parameters
@@ -106,16 +118,21 @@ def resampled(surface: Surface, grid: Grid, *, interpolation: Interpolation = "c
     interpolation : {"cubic", "linear"}
         Through four neighbouring points along each axis, or two. Where one of them is missing, "cubic" falls back to
         "linear", and where one of two is missing, so is the result.
+    shift : tuple of float, optional
+        ``(dy, dx)`` by which the surface is moved on the grid [m], in the direction of increasing indices; ``(dx,)``
+        of a profile.
 
     Returns
     -------
     Surface
-        The surface itself if the grids are equal.
+        The surface itself if the grids are equal and nothing is moved. After a shift, the provenance states the share
+        of its height that a wave of four cells keeps.
 
     Raises
     ------
     ValueError
-        If the number of axes or the periodic axes differ, or periods do, or a grid has too few cells.
+        If the number of axes or the periodic axes differ, or periods do, or a grid has too few cells; or if `shift`
+        is not one finite length an axis, or moves the surface off the grid.
 
     Notes
     -----
@@ -136,29 +153,61 @@ def resampled(surface: Surface, grid: Grid, *, interpolation: Interpolation = "c
     """
     if interpolation not in ("cubic", "linear"):
         raise about("interpolation", f"must be 'cubic' or 'linear', not {interpolation!r}")
-    _comparable(surface.grid, grid)
-    if surface.grid.shape == grid.shape and np.allclose(
-        surface.grid.spacing, grid.spacing, rtol=_SAME, atol=0
-    ):
+    require_comparable(surface.grid, grid)
+    same = surface.grid.shape == grid.shape and same_spacing(surface.grid, grid)
+    moved = _moved(shift, grid)
+    if same and not any(moved):
         return surface
-    heights = _interpolated(surface, grid, 1)
+    heights = _interpolated(surface, grid, 1, moved)
     if interpolation == "cubic":
-        finer = _interpolated(surface, grid, 3)
+        finer = _interpolated(surface, grid, 3, moved)
         heights = np.where(np.isnan(finer), heights, finer)
     require(not np.isnan(heights).all(), "the new grid holds no measured point of the surface")
     shape = " x ".join(str(n) for n in grid.shape)
-    return surface.with_heights(heights, f"resampled to {shape} cells, {interpolation} interpolation", grid)
+    line = f"resampled to {shape} cells, {interpolation} interpolation"
+    if any(moved):
+        degree = 3 if interpolation == "cubic" else 1
+        kept = [_kept(surface.grid, axis, degree, moved[axis]) for axis in range(grid.ndim)]
+        line += f", moved by {_listed(moved, '.6g')} m: waves of four cells keep {_listed(kept, '.3g')} of their height"
+    return surface.with_heights(heights, line, grid)
 
 
-def _lost(lower: Grid, upper: Grid, target: Grid) -> str:
+def same_spacing(one: Grid, other: Grid) -> bool:
+    """Return whether the cells of two grids have the same size."""
+    return one.ndim == other.ndim and np.allclose(one.spacing, other.spacing, rtol=_SAME, atol=0)
+
+
+def _moved(shift: npt.ArrayLike | None, grid: Grid) -> tuple[float, ...]:
+    """Return the shift along each axis [m]."""
+    if shift is None:
+        return (0.0,) * grid.ndim
+    given = finite(shift, "shift [m]")
+    if given.shape != (grid.ndim,):
+        raise about("shift [m]", f"must be one length an axis, {grid.ndim} in all, not {shown(shift)}")
+    return tuple(given.tolist())
+
+
+def _listed(values: Iterable[float], form: str) -> str:
+    return "(" + ", ".join(format(value, form) for value in values) + ")"
+
+
+def _kept(grid: Grid, axis: int, degree: int, moved: float) -> float:
+    """Return the share of its height that a wave of four cells keeps when it is moved along an axis."""
+    row = _weights(grid, grid, axis, degree, moved % grid.spacing[axis])[[grid.shape[axis] // 2]]
+    return float(abs(np.sum(row.data * 1j**row.indices)))
+
+
+def _lost(lower: Grid, upper: Grid, target: Grid, moved: tuple[float, ...]) -> str:
     """Return a text with the number of cells of each body whose centre lies outside the other body or the new grid."""
-    common = [min(ends) for ends in zip(lower.lengths, upper.lengths, target.lengths, strict=True)]
     found = []
-    for name, grid in (("lower", lower), ("upper", upper)):
+    for name, grid, offset in (("lower", lower, 0), ("upper", upper, 1)):
         kept = 1
-        for n, step, length in zip(grid.shape, grid.spacing, common, strict=True):
-            places = np.abs(np.arange(n) - (n - 1) / 2) * step
-            kept *= int(np.count_nonzero(places <= length / 2 * (1 + _SAME)))
+        for axis in range(grid.ndim):
+            n, shift = grid.shape[axis], moved[axis] * (not grid.periodic[axis])
+            places = (np.arange(n) - (n - 1) / 2) * grid.spacing[axis] + offset * shift
+            inside = np.abs(places) <= min(lower.lengths[axis], target.lengths[axis]) / 2 * (1 + _SAME)
+            inside &= np.abs(places - shift) <= upper.lengths[axis] / 2 * (1 + _SAME)
+            kept *= int(np.count_nonzero(inside))
         if lost := grid.size - kept:
             found.append(
                 f"{lost} of {grid.size} cells ({math.ceil(100 * lost / grid.size)} %) of the {name} surface"
@@ -181,7 +230,8 @@ def _turned(upper: Surface, about: str | None) -> Surface:
     return upper.with_heights(flipped, f"turned over about {about}")
 
 
-def _comparable(source: Grid, target: Grid) -> None:
+def require_comparable(source: Grid, target: Grid) -> None:
+    """Raise a ValueError unless two grids have the same axes and periods."""
     if source.ndim != target.ndim:
         raise InputError(
             f"the number of axes must be the same, not {source.ndim} and {target.ndim}",
@@ -199,18 +249,18 @@ def _comparable(source: Grid, target: Grid) -> None:
             )
 
 
-def _interpolated(surface: Surface, grid: Grid, degree: int) -> Array:
+def _interpolated(surface: Surface, grid: Grid, degree: int, moved: tuple[float, ...]) -> Array:
     """Return the heights at the new points, by polynomials of the given degree along each axis in turn."""
     heights = surface.heights
     for axis in range(grid.ndim):
-        weights = _weights(surface.grid, grid, axis, degree)
+        weights = _weights(surface.grid, grid, axis, degree, moved[axis])
         heights = np.moveaxis(weights @ np.moveaxis(heights, axis, 0), 0, axis)
         outside = np.diff(weights.indptr) == 0
         heights[(slice(None),) * axis + (outside,)] = np.nan
     return heights
 
 
-def _weights(source: Grid, target: Grid, axis: int, degree: int) -> Any:
+def _weights(source: Grid, target: Grid, axis: int, degree: int, moved: float) -> Any:
     """Return the sparse matrix from the old points to the new ones of an axis; no entry outside the old cells."""
     n, step, periodic = source.shape[axis], source.spacing[axis], source.periodic[axis]
     if n <= degree:
@@ -219,7 +269,7 @@ def _weights(source: Grid, target: Grid, axis: int, degree: int) -> Any:
         )
     m = target.shape[axis]
     # In cells of the old grid, counted from its first centre; the middles coincide.
-    place = (np.arange(m) - (m - 1) / 2) * (target.spacing[axis] / step) + (n - 1) / 2
+    place = (np.arange(m) - (m - 1) / 2) * (target.spacing[axis] / step) + (n - 1) / 2 - moved / step
     # A point that coincides with an old one gets its height, even if its neighbours are missing.
     whole = np.round(place)
     place = np.where(np.abs(place - whole) < _SAME * n, whole, place)
