@@ -39,6 +39,7 @@ ORDER = [
     {"contact"},
     {"gradients"},
     {"evaluation"},
+    {"measurement"},
     {"adhesion"},
     {"fluid"},
     {"friction"},

@@ -15,7 +15,7 @@ import roughcontact as rc
 from roughcontact.plot.spectrum_plot import SpectrumScales, spectrum_axes
 from roughcontact_thesis import drawing
 
-__all__ = ["Instrument", "Measurements", "case", "draw"]
+__all__ = ["MergedSpectra", "SimulatedInstrument", "case", "draw"]
 
 TITLE = "spectra of one surface by several instruments, merged"
 HURST = 0.68  # stated, as is the rms height
@@ -29,7 +29,7 @@ _FINE = 200.0
 
 
 @dataclass(frozen=True, slots=True)
-class Instrument:
+class SimulatedInstrument:
     """What an instrument sees: a field, through a tip, in pixels.
 
     Parameters
@@ -50,9 +50,9 @@ class Instrument:
 
 
 INSTRUMENTS = (
-    Instrument("stylus, tip 2 µm", 1.0, 2e-6, 4),
-    Instrument("optical, pixel 0.4 µm", 1 / 4, None, 4),
-    Instrument("probe, tip 50 nm", 1 / 16, 50e-9, 1),
+    SimulatedInstrument("stylus, tip 2 µm", 1.0, 2e-6, 4),
+    SimulatedInstrument("optical, pixel 0.4 µm", 1 / 4, None, 4),
+    SimulatedInstrument("probe, tip 50 nm", 1 / 16, 50e-9, 1),
 )
 CHOSEN = (
     "synthetic: the measured plate is replaced by one generated surface, and its instruments by simulated ones",
@@ -70,7 +70,7 @@ _STYLES = (("#0072b2", "o"), ("#009e73", "s"), ("#b0508a", "^"))
 
 
 @dataclass(frozen=True, slots=True)
-class Measurements:
+class MergedSpectra:
     """What the instruments found, what that makes together, and what it should be."""
 
     single: tuple[rc.PowerSpectrum, ...]
@@ -79,17 +79,17 @@ class Measurements:
     law: rc.SelfAffineSpectrum
 
 
-def case(seed: int = SEED, points: int = POINTS) -> Measurements:
+def case(seed: int = SEED, points: int = POINTS) -> MergedSpectra:
     """Return the spectra C2D [m^4] that each instrument finds, and the one merged from their reliable bands."""
     grid = rc.Grid((points, points), LENGTH / points, periodic=True)
     surface = rc.self_affine(grid, HURST, RMS, np.random.default_rng(seed), amplitudes="gaussian")
     law = rc.SelfAffineSpectrum(HURST).scaled(RMS, grid)
     single = tuple(_measured(surface, each, law) for each in INSTRUMENTS)
     merged = rc.merge_spectra(single, per_decade=_FINE)
-    return Measurements(single, merged, rc.fit_spectrum(merged, limit="none"), law)
+    return MergedSpectra(single, merged, rc.fit_spectrum(merged, limit="none"), law)
 
 
-def draw(figure: Figure, data: Measurements) -> None:
+def draw(figure: Figure, data: MergedSpectra) -> None:
     """Draw the spectrum of each instrument, the merged one, and the law of the surface."""
     axes = figure.subplots()
     merged = data.merged.rebinned(20)
@@ -106,7 +106,9 @@ def draw(figure: Figure, data: Measurements) -> None:
     drawing.legend_below(axes)
 
 
-def _measured(surface: rc.Surface, instrument: Instrument, law: rc.SelfAffineSpectrum) -> rc.PowerSpectrum:
+def _measured(
+    surface: rc.Surface, instrument: SimulatedInstrument, law: rc.SelfAffineSpectrum
+) -> rc.PowerSpectrum:
     """Return the spectrum that an instrument finds, with the band in which it is to be relied upon."""
     seen = surface
     if instrument.field < 1:

@@ -21,8 +21,9 @@ from roughcontact.files.file_errors import ContentError, damage
 from roughcontact.files.foreign import without_reader
 from roughcontact.files.heightmap import Channel, HeightMap, pick
 from roughcontact.files.length_units import is_length, length_factor
+from roughcontact.measurement.instrument import Instrument
 
-__all__ = ["list_container", "read_container"]
+__all__ = ["list_container", "read_container", "stated_in"]
 
 _PREPARED = "squeezed-netcdf"  # by contact.engineering: scaled, filled and levelled as its user chose
 _DAMAGED = (
@@ -41,8 +42,9 @@ Reader = Callable[[bytes, str], HeightMap]
 
 @dataclass(frozen=True, slots=True)
 class _Measurement:
-    """One measurement: its name, the file in the archive, whether it was prepared, and what the index states."""
+    """One measurement: its surface, its name, its file, whether it was prepared, and what the index states."""
 
+    surface: str
     name: str
     file: str
     prepared: bool
@@ -64,6 +66,27 @@ def list_container(data: bytes, *, reader: Reader) -> tuple[Channel, ...]:
     """Return the measurements as channels."""
     with _opened(data) as (archive, measurements):
         return _channels(archive, measurements, reader)
+
+
+def stated_in(data: bytes) -> tuple[tuple[str, str, Instrument], ...]:
+    """Return surface, name and instrument of each measurement, in the order of the channels."""
+    with _opened(data) as (_, measurements):
+        names = marked([Channel(one.name, (), None, None, True) for one in measurements])
+        return tuple(
+            (one.surface, channel.name, _instrument(one.stated.get("instrument") or {}))
+            for one, channel in zip(measurements, names, strict=True)
+        )
+
+
+def _instrument(stated: dict[str, Any]) -> Instrument:
+    """Return the instrument that the index states, with the parameters that limit its waves."""
+    given = stated.get("parameters") or {}
+    lengths: dict[str, Any] = {
+        name: float(given[name]["value"]) * length_factor(given[name]["unit"])
+        for name in ("resolution", "tip_radius")
+        if given.get(name)
+    }
+    return Instrument(str(stated.get("name") or stated.get("type") or ""), **lengths)
 
 
 def _channels(
@@ -128,11 +151,11 @@ def _index(archive: zipfile.ZipFile) -> Any:
 
 
 def _measurements(index: Any) -> Iterator[_Measurement]:
-    for surface in index["surfaces"]:
+    for number, surface in enumerate(index["surfaces"], 1):
         for stated in surface["topographies"]:
             files = stated["datafile"]
             prepared = files.get(_PREPARED)
             file = prepared or files["original"]
-            yield _Measurement(
-                str(stated.get("name") or PurePosixPath(file).name), file, prepared is not None, stated
-            )
+            name = str(stated.get("name") or PurePosixPath(file).name)
+            owner = str(surface.get("name") or f"surface {number}")
+            yield _Measurement(owner, name, file, prepared is not None, stated)

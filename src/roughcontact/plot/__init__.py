@@ -57,6 +57,7 @@ if TYPE_CHECKING or _LATE is None:
         height_map as height_map,
         pressure_map as pressure_map,
     )
+    from roughcontact.plot.measured_plot import combined_spectrum as combined_spectrum
     from roughcontact.plot.profile_plot import (
         contact_profile as contact_profile,
         pressure_profile as pressure_profile,
