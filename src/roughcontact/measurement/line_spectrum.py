@@ -20,7 +20,7 @@ from roughcontact.validation import Array, Mask
 __all__ = ["LineSpectra", "line_spectra"]
 
 _ALIKE = (0.6, 0.8)  # median over mean of rows that are alike: ln 2 = 0.69 of exponential powers
-_SURE = 3.0  # standard errors by which a ratio must leave these bounds
+_SURE = 4.0  # standard errors by which a ratio must differ from ln 2 as well
 _MANY = 0.25  # of the rows: more spoilt ones are a property of the surface
 _MEDIAN_ERROR = 1 / math.log(2)  # of the median of exponential numbers, over that of their mean
 _RATIO_ERROR = math.sqrt(_MEDIAN_ERROR**2 - 1)  # of median over mean; their covariance is 1 (of unit mean)
@@ -100,35 +100,59 @@ def line_spectra(surface: Surface, direction: Literal["x", "y"] = "x") -> LineSp
             f"must be a map of at least {_LEAST} x {_LEAST} cells, not {surface.shape}",
             "give a map",
         )
-    mean = power_spectrum(surface, direction).rebinned(PER_DECADE)
     flat = surface.levelled("auto")
     rows, axis = (flat.heights, 1) if direction == "x" else (flat.heights.T, 0)
-    line = Grid(rows.shape[1], surface.grid.spacing[axis], surface.grid.periodic[axis])
-    spectra = [power_spectrum(Surface(row, line), level="mean").rebinned(PER_DECADE) for row in rows]
-    each, waves = np.array([one.density for one in spectra]), spectra[0].count / 2
-    # Only neighbouring waves are correlated by a window, so that a bin of one wave has both degrees of freedom.
-    degrees = 2 * waves / (1 + (waves / spectra[0].freedom - 1) * (1 - 1 / waves))
-    many = chi2.median(degrees) / degrees
-    limit = np.median(each, axis=0) / many * chi2.isf(_CHANCE / each.size, degrees) / degrees
-    spoilt = (each > limit).any(axis=1)
-    spacing, periodic = (
-        (along[1 - axis], along[axis]) for along in (surface.grid.spacing, surface.grid.periodic)
+    steps, repeating = surface.grid.spacing, surface.grid.periodic
+    line, across = Grid(rows.shape[1], steps[axis], repeating[axis]), (repeating[1 - axis],)
+    alone = power_spectrum(Surface(rows[0], line), level="mean")
+    fine = np.array([power_spectrum(Surface(row, line), level="mean").density for row in rows])
+    limit = np.median(fine, axis=0) / math.log(2) * -math.log(_CHANCE / fine.size)
+    spoilt = (fine > limit).any(axis=1)
+    if spoilt.mean() > _MANY:
+        raise _not_alike(f"{spoilt.sum()} of {len(rows)} profiles along {direction} hold spikes")
+    sound = Grid(
+        (int((~spoilt).sum()), rows.shape[1]), (steps[1 - axis], steps[axis]), (*across, *line.periodic)
     )
-    sound = Grid((int((~spoilt).sum()), rows.shape[1]), spacing, periodic)
-    freedom = power_spectrum(Surface(rows[~spoilt], sound), "x", level="mean").rebinned(PER_DECADE).freedom
-    number = np.maximum(freedom / spectra[0].freedom, 1.0)  # of independent profiles
-    # Of N exponential numbers the median is 1, 0.83, 0.78, 0.76 for N = 1, 3, 5, 7: ln 2 + 1/(2 (N + 0.63)).
-    factor = many + (1 - many) * 1.63 / (number + 0.63)
-    ratio = math.log(2) * np.median(each[~spoilt], axis=0) / each[~spoilt].mean(axis=0) / factor
-    error = _SURE * _RATIO_ERROR * ratio / np.sqrt(number)
-    wrong = (ratio + error < _ALIKE[0]) | (ratio - error > _ALIKE[1])
-    if wrong.any() or spoilt.mean() > _MANY:
-        worst = int(np.argmax(np.abs(ratio / math.log(2) - 1)))
-        raise InputError(
-            f"the profiles along {direction} are not alike: median over mean is {ratio[worst]:.2g} at a wavelength of "
-            f"{mean.wavelength[worst]:.3g} m, and {spoilt.sum()} of {len(rows)} profiles hold spikes",
-            "use the mean, rc.power_spectrum(surface, direction)",
-            "surface",
-        )
-    median = replace(mean, density=np.median(each, axis=0) / factor, freedom=freedom / _MEDIAN_ERROR**2)
-    return LineSpectra(mean, median, ratio, spoilt)
+    whole = power_spectrum(Surface(rows[~spoilt], sound), "x", level="mean")
+    number = np.maximum(whole.freedom / alone.freedom, 1.0)  # of independent profiles
+    ratio = np.median(fine[~spoilt], axis=0) / fine[~spoilt].mean(axis=0) * math.log(2) / _factor(2.0, number)
+    bins = alone.rebinned(PER_DECADE)
+    index = np.repeat(np.arange(bins.count.size), (bins.count / alone.count[0]).astype(int))
+
+    def mean(values: Array) -> Array:
+        return np.asarray(np.bincount(index, values) / np.bincount(index))
+
+    waves = np.bincount(index)
+    for found, each, wave in (
+        (ratio, number, alone.wavelength),
+        (mean(ratio), mean(number) * waves, bins.wavelength),
+    ):
+        error = _SURE * _RATIO_ERROR * math.log(2) / np.sqrt(each)
+        wrong = (np.abs(found - math.log(2)) > error) & ((found < _ALIKE[0]) | (found > _ALIKE[1]))
+        if wrong.any():
+            worst = int(np.argmax(wrong))
+            raise _not_alike(
+                f"the profiles along {direction} are not alike at a wavelength of {wave[worst]:.3g} m: their median "
+                f"is {found[worst]:.2g} of their mean, not 0.69"
+            )
+    # Only neighbouring waves are correlated by a window, so that a bin of one wave has both degrees of freedom.
+    degrees = 2 * waves / (1 + (1 / alone.freedom[0] - 1) * (1 - 1 / waves))
+    binned = np.array([mean(row) for row in fine])
+    number = mean(number)
+    density = np.median(binned, axis=0) / _factor(degrees, number)
+    freedom = whole.rebinned(PER_DECADE).freedom / _MEDIAN_ERROR**2
+    average = power_spectrum(surface, direction).rebinned(PER_DECADE)
+    return LineSpectra(average, replace(average, density=density, freedom=freedom), mean(ratio), spoilt)
+
+
+def _factor(degrees: Array | float, number: Array) -> Array:
+    """Return the median of N chi-squared numbers over their mean.
+
+    Of N exponential numbers it is 1, 0.83, 0.78, 0.76 for N = 1, 3, 5, 7: ln 2 + 1/(2 (N + 0.63)).
+    """
+    many = chi2.median(degrees) / degrees
+    return np.asarray(many + (1 - many) * 1.63 / (number + 0.63))
+
+
+def _not_alike(problem: str) -> InputError:
+    return InputError(problem, "use the mean, rc.power_spectrum(surface, direction)", "surface")
