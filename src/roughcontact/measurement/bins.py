@@ -72,7 +72,7 @@ def _one(signal: Signal, band: tuple[float, float], centres: Array, exponents: A
     law[inside] = (q / centres[index]) ** exponents[index]
     density = mean(signal.density * law)
     ratio = signal.repeats * mean(signal.noise / signal.response * law) / density
-    step = np.sqrt(3 * signal.spectrum.smear) / centres
+    step = np.minimum(np.sqrt(3 * signal.spectrum.smear) / centres, 0.5)  # at most 1/3 in a band
     kernel = (4 + (1 - step) ** -exponents + (1 + step) ** -exponents) / 6
     if signal.spectrum.kind == "C2D":
         kernel *= (2 + (1 + step**2) ** (-exponents / 2)) / 3

@@ -138,11 +138,17 @@ def line_spectra(surface: Surface, direction: Literal["x", "y"] = "x") -> LineSp
     # Only neighbouring waves are correlated by a window, so that a bin of one wave has both degrees of freedom.
     degrees = 2 * waves / (1 + (1 / alone.freedom[0] - 1) * (1 - 1 / waves))
     binned = np.array([mean(row) for row in fine])
-    number = mean(number)
-    density = np.median(binned, axis=0) / _factor(degrees, number)
-    freedom = whole.rebinned(PER_DECADE).freedom / _MEDIAN_ERROR**2
-    average = power_spectrum(surface, direction).rebinned(PER_DECADE)
-    return LineSpectra(average, replace(average, density=density, freedom=freedom), mean(ratio), spoilt)
+    number = mean(number * whole.density) / np.maximum(
+        mean(whole.density), 1e-300
+    )  # the strongest wave counts
+    density, freedom = (
+        np.median(binned, axis=0) / _factor(degrees, number),
+        whole.rebinned(PER_DECADE).freedom,
+    )
+    # All waves of a bin count alike, as in the median.
+    average = replace(power_spectrum(surface, direction).rebinned(PER_DECADE), density=binned.mean(axis=0))
+    median = replace(average, density=density, freedom=freedom / _MEDIAN_ERROR**2)
+    return LineSpectra(average, median, mean(ratio), spoilt)
 
 
 def _factor(degrees: Array | float, number: Array) -> Array:
