@@ -314,6 +314,7 @@ SETTINGS = [
     lambda: Loads("force", np.array([1.0, 2.0])),
     lambda: rc.Force(1.0),
     lambda: rc.Depth(1.0),
+    lambda: rc.Instrument("AFM", tip_radius=2e-8, noise=rc.Noise(1e-9)),
     lambda: rc.ActiveSet(max_steps=7),
     lambda: rc.PolonskyKeer(max_steps=7),
     lambda: rc.NixGao(1e9, 1e-6),
@@ -368,6 +369,9 @@ ANSWERS = {
     "ShearLaw",
     "Transmissivity",
     "Joint",
+    "LineSpectra",
+    "Measurement",
+    "Measurements",
 }
 
 

@@ -227,6 +227,7 @@ MORE = [
     (SOFT_MATERIAL.shifted, {"factor": 10.0, "temperature": 300.0}),
     *((VISCO.transfer, {"curve": CURVE, "material": SOFT_MATERIAL, "times": [0.0, 1.0], name: values})
       for name, values in (("forces", [2e-2, 3e-2]), ("depths", [2.1e-6, 2.5e-6]))),
+    (rc.Instrument, {"resolution": 1e-6, "tip_radius": 2e-8}),
     (rc.plot.von_mises_section, {"solution": PRESSED, "solid": STEEL, "deepest": 5e-6}),
 ]  # fmt: skip
 # Units of parameters by their names, and where a name means something else.
@@ -234,7 +235,7 @@ UNITS = {
     "m": "radius inner outer side centre spacing edges heights below above range rms rms_band rolloff long_cutoff"
     " short_cutoff displacement displacements ends depth depths mean_gap mean_gaps deepest tip_radius thickness"
     " reference_length section_length amplitude wavelength rise separation sigma ra rz correlation_length size grid"
-    " slip_length closing_gap seal_width circumference head hole longest_wave",
+    " resolution slip_length closing_gap seal_width circumference head hole longest_wave",
     "s": "times time band relaxation_time retardation_time",
     "rad/s": "angular_frequency angular_frequencies",
     "Pa": "equilibrium instantaneous moduli storage loss bulk"

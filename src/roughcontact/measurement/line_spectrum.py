@@ -15,7 +15,7 @@ from roughcontact.measurement.band import PER_DECADE
 from roughcontact.surface.analysis.power import PowerSpectrum
 from roughcontact.surface.analysis.spectra import power_spectrum
 from roughcontact.surface.surface import Surface
-from roughcontact.validation import Array, Mask
+from roughcontact.validation import Array, Mask, require
 
 __all__ = ["LineSpectra", "line_spectra"]
 
@@ -94,6 +94,7 @@ def line_spectra(surface: Surface, direction: Literal["x", "y"] = "x") -> LineSp
     >>> bool(abs(rc.line_spectra(rough).ratio.mean() - 0.69) < 0.1)
     True
     """
+    require(direction in ("x", "y"), f"direction must be 'x' or 'y', not {direction!r}", place="direction")
     if surface.grid.ndim != 2 or min(surface.shape) < _LEAST:
         raise about(
             "surface",

@@ -90,7 +90,7 @@ class Measurement:
         if any(surface.grid != first.grid for surface in surfaces):
             raise InputError(
                 f"the repeats of {name!r} lie on different grids",
-                "bring them onto one by rc.resampled()",
+                "crop them to one, or bring them onto one by rc.resampled()",
                 "repeats",
             )
         noise, found = stated.noise, "stated"
