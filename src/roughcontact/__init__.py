@@ -164,7 +164,9 @@ if TYPE_CHECKING or _LATE is None:
         reduced_shear_modulus as reduced_shear_modulus,
     )
     from roughcontact.mdr.foundation import foundation as foundation
+    from roughcontact.measurement.combined_spectrum import CombinedSpectrum as CombinedSpectrum
     from roughcontact.measurement.infer_joint import infer_joint as infer_joint
+    from roughcontact.measurement.instrument import Instrument as Instrument
     from roughcontact.measurement.joint_data import (
         JointClosures as JointClosures,
         JointStiffness as JointStiffness,
@@ -172,8 +174,6 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.measurement.joint_inference import JointInference as JointInference
     from roughcontact.measurement.joint_plan import JointPlan as JointPlan, plan_joint as plan_joint
     from roughcontact.measurement.joint_topography import JointTopography as JointTopography
-    from roughcontact.measurement.combined_spectrum import CombinedSpectrum as CombinedSpectrum
-    from roughcontact.measurement.instrument import Instrument as Instrument
     from roughcontact.measurement.line_spectrum import (
         LineSpectra as LineSpectra,
         line_spectra as line_spectra,

@@ -1,1 +1,1 @@
-"""Measurements of one surface: maps and profiles with their instruments, reliable bands and combined spectrum."""
+"""What measurements tell of a surface: many maps with their combined spectrum, and the stiffness of a joint."""
