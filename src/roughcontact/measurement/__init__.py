@@ -1,1 +1,1 @@
-"""What measurements tell of a surface: many maps with their combined spectrum, and the stiffness of a joint."""
+"""Measurements of a surface: many maps and their combined spectrum, and topography from the stiffness of a joint."""
