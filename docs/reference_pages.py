@@ -25,7 +25,7 @@ TITLES = {  # in this order
     "materials": "Metals by name",
     "contact": "Contact",
     "evaluation": "Readers of a contact",
-    "measurement": "Measurements of one surface",
+    "measurement": "Measurements of a surface",
     "fluid": "Flow through the gap",
     "friction": "Friction",
     "joints": "Joints",

@@ -1,1 +1,1 @@
-"""Measurements of one surface: maps and profiles with their instruments, reliable bands and combined spectrum."""
+"""Measurements of a surface: many maps and their combined spectrum, and topography from the stiffness of a joint."""

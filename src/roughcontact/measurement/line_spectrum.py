@@ -48,12 +48,12 @@ class LineSpectra:
     --------
     >>> import numpy as np
     >>> import roughcontact as rc
-    >>> rough = rc.self_affine(rc.Grid((96, 128), 1e-6, periodic=True), 0.8, 1e-7, 1, amplitudes="gaussian")
+    >>> rough = rc.self_affine(rc.Grid((96, 128), 1e-6, periodic=True), 0.8, 1e-7, 2, amplitudes="gaussian")
     >>> heights = rough.heights.copy()
     >>> heights[7, 50] += 1e-5
     >>> found = rc.line_spectra(rc.Surface(heights, rough.grid))
     >>> np.flatnonzero(found.spoilt).tolist(), f"{found.mean.density[-1] / found.median.density[-1]:.0f}"
-    ([7], '25')
+    ([7], '1041')
     """
 
     mean: PowerSpectrum
