@@ -1,10 +1,10 @@
-"""What stiffness tells of a surface, in numbers: `docs/concepts/what-stiffness-tells.md`.
+"""How much information stiffness holds about a surface: the numbers of `docs/concepts/what-stiffness-shows.md`.
 
     python benchmarks/joint_information.py
 
 First k(F) of one free square of the ensemble E1 (800 squares, 512 x 512 cells, cut at random): Hurst exponent and rms
-height by the fitted power law, and how often the interval of the fit holds the truth. Then K(p) of a joint: the width of
-ln h_eff by Fisher's information of the emulator.
+height by the fitted power law, and how often the interval of the fit holds the truth. Then K(p) of a joint: the width
+of ln h_eff by Fisher's information of the emulator.
 """
 
 from __future__ import annotations
@@ -33,7 +33,8 @@ def one_square() -> None:
         }
     grid = np.linspace(0.1, 2.95, 2000)
     exponents, prefactors = (
-        np.asarray(law(grid, cut="period")) for law in (rough_square.exponent, rough_square.prefactor)
+        rough_square.exponent(grid, cut="period"),
+        rough_square.prefactor(grid, cut="period"),
     )
     design = np.stack([np.ones_like(log_f), log_f], axis=1)
     pseudo = np.linalg.pinv(design)
