@@ -44,14 +44,12 @@ def one_square() -> None:
         noise = np.sqrt(((curve[whole] - fits @ design.T) ** 2).sum(axis=1) / (log_f.size - 2))
         alpha, error = fits[:, 1], noise * np.sqrt((pseudo[1] ** 2).sum())
         found = np.interp(-alpha, -exponents, grid)
-        heights = (
-            np.log(np.interp(found, grid, prefactors)) - fits[:, 0]
-        ) / alpha  # ln of h over the true one
+        heights = (np.log(np.interp(found, grid, prefactors)) - fits[:, 0]) / alpha  # over the true one
         held = np.abs(alpha - np.interp(hurst, grid, exponents)) < Z90 * error
         low, middle, high = np.quantile(found, [0.05, 0.5, 0.95])
         print(
-            f"H = {hurst}: {whole.sum()} squares, H {middle:.2f} ({low:.2f} to {high:.2f}), sd {found.std():.2f}; sd of "
-            f"ln h {heights.std():.2f}; 90 % intervals of the fit hold the truth in {held.mean():.0%}"
+            f"H = {hurst}: {whole.sum()} squares, H {middle:.2f} ({low:.2f} to {high:.2f}), sd {found.std():.2f}; sd "
+            f"of ln h {heights.std():.2f}; 90 % intervals of the fit hold the truth in {held.mean():.0%}"
         )
 
 

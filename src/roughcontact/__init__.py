@@ -101,7 +101,6 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.files.read_adhesive_curve import read_adhesive_curve as read_adhesive_curve
     from roughcontact.files.read_curve import read_curve as read_curve
     from roughcontact.files.read_detachment_curve import read_detachment_curve as read_detachment_curve
-    from roughcontact.files.read_measurements import read_measurements as read_measurements
     from roughcontact.files.read_pressure_field import read_pressure_field as read_pressure_field
     from roughcontact.files.save import write as write
     from roughcontact.fluid.conductance_parts import ConductanceParts as ConductanceParts
@@ -181,6 +180,7 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.measurement.measurement import Measurement as Measurement
     from roughcontact.measurement.measurements import Measurements as Measurements
     from roughcontact.measurement.press_draws import PressedDraws as PressedDraws, press_draws as press_draws
+    from roughcontact.measurement.read_measurements import read_measurements as read_measurements
     from roughcontact.memory import MemoryWarning as MemoryWarning
     from roughcontact.slabs.slabs import Slabs as Slabs
     from roughcontact.solver.active_set import ActiveSet as ActiveSet
