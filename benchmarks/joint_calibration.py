@@ -3,7 +3,7 @@
     roughcontact study run examples/joint/calibration.toml --out calibration  # resumes; 20 minutes of a core
     python benchmarks/joint_calibration.py calibration
 
-400 joints of 64 l^2 and more drawn from the prior, all of one area. Each is measured at five pressures over 2.4
+400 joints of 64 l^2 and more drawn from the prior, all of one area. Each is measured at five pressures over 1.6
 decades, with an error of 5 % a load, a gain of 3 % and a discrepancy of 5 %.
 """
 
@@ -26,7 +26,7 @@ from roughcontact.study.export import export
 from roughcontact.study.store import Store
 
 DATA = Path(__file__).resolve().parents[1] / "docs" / "data" / "joint"
-LOADS = slice(1, 14, 3)  # five of sixteen nodes, a fifth of a decade apart
+LOADS = slice(3, 12, 2)  # five of sixteen nodes, two fifths of a decade apart
 ERROR, GAIN, MODULUS_ERROR = 0.05, 0.03, 0.02
 MODULUS, RMS, ROLLOFF = 115e9, 1e-6, 1e-4
 SIDE, SPREAD = (
@@ -69,6 +69,14 @@ def inferred(p: Array, stiffness: Array) -> rc.JointInference:
     )
 
 
+def is_refused(p: Array, stiffness: Array) -> bool:
+    """Return whether a measurement is not taken for a joint of the model."""
+    try:
+        return not inferred(p, stiffness).fits
+    except rc.InputError:
+        return True
+
+
 def wrong(found: rc.JointInference, name: str, p: Array, stiffness: Array) -> Array:
     """Return stiffnesses whose level, slope or curvature departs by three of its predictive standard deviations."""
     at = np.log(p)
@@ -105,10 +113,7 @@ def main() -> None:
                 "bound": found.width / bound,
                 "width": found.width,
                 **{each.name: each.nats for each in found.parameters},
-                **{
-                    name: not inferred(p, wrong(found, name, p, stiffness)).fits
-                    for name in ("slope", "curvature")
-                },
+                **{name: is_refused(p, wrong(found, name, p, stiffness)) for name in ("slope", "curvature")},
             }
         )
     report(rows)

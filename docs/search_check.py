@@ -65,6 +65,8 @@ QUESTIONS = {
     "unload and reload": "how-to/plastic-loops",
     "prepare a surface": "how-to/preparing",
     "shift of two maps before and after": "how-to/preparing",
+    "many maps of one surface": "how-to/many-measurements",
+    "what stiffness shows of a surface": "concepts/what-stiffness-shows",
     "how spikes are recognised": "concepts/spikes",
     "json output": "reference/json-output",
     "joint known by two numbers": "how-to/specified",

@@ -15,7 +15,7 @@ from roughcontact.validation import Array, numeric, require
 __all__ = ["InferredParameter", "JointInference"]
 
 SHARES = (0.05, 0.5, 0.95)
-UNLIKELY = 0.01  # probability of a measurement below which the model is refused
+UNLIKELY = 0.02  # probability of a measurement below which the model is refused
 INFORMED = 0.3  # nats, a standard deviation of 0.74 of the prior's: with less, a parameter counts as unknown
 
 
@@ -87,7 +87,7 @@ class JointInference:
 
     @property
     def fits(self) -> bool:
-        """Whether a joint of the model departs as far with a probability of 1 % or more."""
+        """Whether a joint of the model departs as far with a probability of 2 % or more."""
         return not self.p_value < UNLIKELY
 
     @property
