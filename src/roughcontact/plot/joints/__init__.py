@@ -1,0 +1,1 @@
+"""Pictures of a whole joint, and of what a measured joint tells."""
