@@ -101,6 +101,10 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.files.read_adhesive_curve import read_adhesive_curve as read_adhesive_curve
     from roughcontact.files.read_curve import read_curve as read_curve
     from roughcontact.files.read_detachment_curve import read_detachment_curve as read_detachment_curve
+    from roughcontact.files.read_joint_table import (
+        JointTable as JointTable,
+        read_joint_table as read_joint_table,
+    )
     from roughcontact.files.read_measurements import read_measurements as read_measurements
     from roughcontact.files.read_pressure_field import read_pressure_field as read_pressure_field
     from roughcontact.files.save import write as write

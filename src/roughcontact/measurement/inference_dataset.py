@@ -1,4 +1,4 @@
-"""What the stiffness of a joint tells of its topography, as labelled data and as plain values."""
+"""The answer of an inference as labelled data and as plain values."""
 
 from __future__ import annotations
 

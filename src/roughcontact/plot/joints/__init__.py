@@ -1,1 +1,1 @@
-"""Pictures of a whole joint, and of what a measured joint tells."""
+"""Pictures of a whole joint, and of an inference from a measured joint."""
