@@ -120,8 +120,8 @@ class JointMeasurement:
         if function is None:
             function = "rc.JointStiffness.from_reflection"
             named["impedances"] = named.pop("impedance") if "impedance" in named else _impedances(bodies)
-        fields = dict.fromkeys(("pressures", "stiffness", "closures", "reflected"), "file")
-        fields |= {"error": "errors", "impedances": "impedance"}
+        fields = dict.fromkeys(("pressures", "stiffness", "closures"), "file")
+        fields |= {"reflected": "frequency", "error": "errors", "impedances": "impedance"}
         yield Call(function, values, named, "data", place="source", fields=fields)
 
 
