@@ -35,11 +35,13 @@ Array = npt.NDArray[np.float64]
 def take(source: Path) -> None:
     """Keep the curves of the studies in a folder, for the samples whose designs are all done."""
     DATA.mkdir(parents=True, exist_ok=True)
-    for name in ("design", "validation", "hardness"):
+    for name in ("design", "validation", "calibration", "large", "hardness"):
         if not (source / name / "study.toml").is_file():
             continue
         with Store.open(source / name) as store:
             found = export(store, seconds=True)
+        if "stiffness_per_area" not in found:  # none is done
+            continue
         whole = (found["case_status"] == "done").all("row")
         kept = found[["stiffness_per_area", "fraction", "pressure"]].isel(sample=whole.to_numpy())
         hours = float(found["case_seconds"].sum()) / 3600
@@ -50,7 +52,7 @@ def take(source: Path) -> None:
         print(f"{name}: {kept.sizes}, {hours:.2f} hours, {failed} failed, {converged:.4f} met the tolerance")
 
 
-def ensemble(name: str) -> tuple[Array, Array, Array, Array]:
+def ensemble(name: str) -> tuple[Array, Array, Array]:
     """Return hurst, side, band of each row, shape (rows, 3), nodes, shape (n,), and ln K, shape (rows, samples, n)."""
     with xarray.open_dataset(DATA / f"{name}.nc", engine="h5netcdf") as data:
         points = np.stack([data[axis].to_numpy() for axis in ("hurst", "side", "band")], axis=1)
@@ -58,7 +60,7 @@ def ensemble(name: str) -> tuple[Array, Array, Array, Array]:
             data["stiffness_per_area"].transpose("row", "sample", "load").to_numpy().astype(float)
         )
         nodes = np.log(data["pressure"].to_numpy().reshape(-1, curves.shape[-1])[0].astype(float))
-    return points, points, nodes, curves
+    return points, nodes, curves
 
 
 def fitted(points: Array, nodes: Array, curves: Array) -> JointEmulator:
@@ -99,6 +101,24 @@ def distances(emulator: JointEmulator, points: Array, curves: Array, nodes: slic
     return np.einsum("rsi,rij,rsj->rs", residual, np.linalg.inv(covariance), residual)
 
 
+def larger(emulator: JointEmulator) -> None:
+    """Print how far joints beyond the largest of the design are from the law of their mean and scatter."""
+    points, nodes, curves = ensemble("large")
+    mean, covariance = emulator.at(*points.T, np.broadcast_to(nodes, (len(points), nodes.size)))
+    deviation = np.sqrt(np.diagonal(covariance[0]))
+    count = curves.shape[1]
+    print(
+        f"{count} joints of {points[0, 1] ** 2:.0f} l^2, every third load from p l/(E* h) = {np.exp(nodes[0]):.2g} on:"
+    )
+    print("  mean of ln K over that of the law", np.round((curves[0].mean(axis=0) - mean[0])[::3], 3))
+    print("  with a standard error of         ", np.round((deviation / np.sqrt(count))[::3], 3))
+    ratio = curves[0].std(axis=0, ddof=1) / deviation
+    ends = np.sqrt(scipy.stats.chi2.ppf([0.025, 0.975], count - 1) / (count - 1))
+    print(
+        "  sd over that of the law", np.round(ratio[::3], 2), f"95 % between {ends[0]:.2f} and {ends[1]:.2f}"
+    )
+
+
 def main() -> None:
     """Run it."""
     parser = argparse.ArgumentParser()
@@ -106,8 +126,8 @@ def main() -> None:
     chosen = parser.parse_args()
     if chosen.take:
         take(chosen.take)
-    points, _, nodes, curves = ensemble("design")
-    unseen, _, _, others = ensemble("validation")
+    points, nodes, curves = ensemble("design")
+    unseen, _, others = ensemble("validation")
     first = fitted(points, nodes, curves)
     spread = misfit(first, unseen, others)
     names = ("nodes", "mean", "deviation", "correlation")
@@ -131,6 +151,9 @@ def main() -> None:
         print(
             f"{share:.0%} regions cover {covered:.3f} of {measured.size} unseen specimens, inflation {inflation:.3f}"
         )
+
+    if (DATA / "large.nc").is_file():
+        larger(JointEmulator(**values, inflation=inflation))
 
 
 if __name__ == "__main__":

@@ -21,6 +21,7 @@ QUESTIONS = {
     "hysteretic friction": "concepts/sliding-hysteresis",
     "friction against speed": "gallery/friction/rubber_friction",
     "current of each spot": "gallery/bodies/spot_currents",
+    "measured stiffness of a joint": "how-to/infer-joint",
     "read a .sur file": "how-to/files",
     "my curve is unresolved": "how-to/unresolved",
     "which cut-off": "gallery/questions/short_cutoff",

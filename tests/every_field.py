@@ -49,6 +49,11 @@ SMALLEST = {
         "pressures": {"pressures": "1MPa"},
         "theories": {"theory": "mikic"},
     },
+    "infer": {
+        "source": {"file": "joint.csv"},
+        "bodies": BODIES,
+        "joint": {"area": "2cm^2", "branch": "loading"},
+    },
 }
 SOURCE = {
     "file": FILE,
@@ -74,6 +79,8 @@ _OF_JOINT = {
 _GAS = {"viscosity": None, "gas": "air,293K"}
 _TABLE = dict.fromkeys(("bolt_force", "head", "hole", "thickness"))
 _WET = {"leak": "0", "viscosity": "1mPa*s", "drop": "1bar"}
+_ECHO = {"quantity": "reflection", "frequency": "2MHz"}
+_FACES = {"rms": "1.2um", "rms_error": "10%", "rolloff": "100um", "rolloff_error": "30%", "hurst": "0.8"}
 _WAVE = {"shape": "wave", "radius": None, "amplitude": "1um", "wavelength": "0.1mm"}
 # What stands beside a field where it has a meaning; None where it takes the place of another.
 BESIDE = {
@@ -120,6 +127,15 @@ BESIDE = {
     "JointPressure.sha256": _TABLE | {"pressure_field": "field.csv"},
     "JointShear.amplitude": {"friction": "0.2"},
     **dict.fromkeys(("JointLeak.leak", "JointLeak.viscosity", "JointLeak.drop"), _WET),
+    "JointMeasurement.resolution": {"quantity": "closure"},
+    "JointMeasurement.compliance": {"quantity": "closure"},
+    "JointMeasurement.compliance_error": {"quantity": "closure", "compliance": "1e-14m/Pa"},
+    "JointMeasurement.frequency": _ECHO | {"impedance": "46MPa*s/m"},
+    "JointMeasurement.impedance": _ECHO,
+    **{
+        f"JointProfile.{name}": _FACES
+        for name in ("rms", "rms_error", "rolloff", "rolloff_error", "hurst", "hurst_error")
+    },
     "SmoothBody.slope": {"shape": "cone", "radius": None},
     "SmoothBody.amplitude": _WAVE,
     "SmoothBody.wavelength": _WAVE,

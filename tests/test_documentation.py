@@ -80,7 +80,7 @@ def folder(tmp_path, monkeypatch):
     points = "".join(f"{x}, {y}, {12 + x}\n" for y in (0, 2, 4) for x in (0, 2, 4))
     (tmp_path / "field.csv").write_text("x [mm], y [mm], p [MPa]\n" + points)
     pages = "".join(page.read_text(encoding="utf-8") for page in PAGES)
-    for name, text in re.findall(r"```toml\n# (\S+\.toml)\n(.*?)```", pages, re.DOTALL):
+    for name, text in re.findall(r"```(?:toml|text)\n# (\S+\.(?:toml|csv))\n(.*?)```", pages, re.DOTALL):
         (tmp_path / name).write_text(fewer(text), encoding="utf-8")
     monkeypatch.chdir(tmp_path)
     return tmp_path

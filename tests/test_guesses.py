@@ -372,6 +372,7 @@ ANSWERS = {
     "LineSpectra",
     "Measurement",
     "Measurements",
+    "JointInference",
 }
 
 

@@ -66,6 +66,18 @@ _PRESSURE = rc.PressureField(np.pad(np.full((1, 1), np.nan), 1, constant_values=
 _OF_JOINT = rc.loading_curve(ROUGH, _STEELS, pressures=[1e5, 1e6], measures=[rc.Transmissivity(axis=0)])
 LAW_OF_JOINT = rc.shear_law(_OF_JOINT, _STEELS, friction=0.3)
 WHOLE_JOINT = rc.joint(LAW_OF_JOINT, _PRESSURE)
+_MEASURED = {
+    "pressures": np.geomspace(7e6, 1.4e8, 5),
+    "stiffness": 1.9e7 * np.geomspace(7e6, 1.4e8, 5) ** 0.88,
+}
+_OF_MEASURED = {
+    "data": rc.JointStiffness(**_MEASURED, errors=0.05),
+    "modulus": 1.15e11,
+    "modulus_error": 0.02,
+    "area": 2e-4,
+    "branch": "loading",
+}
+INFERRED = rc.infer_joint(**_OF_MEASURED)
 VISCO = rc.viscoelastic
 # What is called beside tests/test_bad_input.py, and good arguments.
 _LEAK = {"solution": PRESSED, "fluid": rc.Liquid(1e-3), "axis": 0}
@@ -79,6 +91,15 @@ MORE = [
     ),
     *((shape, {"grid": FREE, "centre": (7e-6, 9e-6)} | good) for shape, good in SHAPES.items()),
     (rc.shapes.wave, {"grid": PERIODIC, "amplitude": 1e-7, "wavelength": 8e-6, "centre": (1e-6, 2e-6)}),
+    (rc.JointStiffness, _MEASURED | {"errors": 0.05, "gain": 0.03}),
+    (rc.JointStiffness.from_reflection, {"pressures": _MEASURED["pressures"], "reflected": [0.9, 0.8, 0.7, 0.6, 0.5],
+                                         "error": 0.01, "frequency": 2e6, "impedances": (46e6, 46e6)}),
+    (rc.JointClosures, {"pressures": _MEASURED["pressures"], "closures": np.arange(1.0, 6.0) * 1e-7,
+                        "resolution": 1e-8, "compliance": 1e-16, "compliance_error": 1e-17}),
+    (rc.JointTopography, {"rms": 1e-6, "rms_error": 0.1, "rolloff": 1e-4, "rolloff_error": 0.3}),
+    (rc.infer_joint, _OF_MEASURED),
+    *((call, {"pressures": [1e7, 2e7]}) for call in (INFERRED.predicted, INFERRED.predicted_closures)),
+    (INFERRED.share_below, {"height": 1e-6}),
     (rc.PressureField, {"pressure": np.full((2, 3), 1e6), "grid": 1e-3}),
     (rc.bolt_pressure, {"force": 1e3, "head": 13e-3, "hole": 9e-3, "thickness": 1e-2, "half_angle": 0.5}),
     (rc.joint, {"law": LAW_OF_JOINT, "field": _PRESSURE, "longest_wave": 1e-5}),
@@ -276,6 +297,13 @@ UNIT |= {
     "frequencies": "Hz",
 }
 UNIT |= {"resistivities": "ohm*m", "resistivity": "ohm*m", "conductivities": "W/m/K", "conductivity": "W/m/K"}
+JOINT_UNITS = {
+    "stiffness": "Pa/m",
+    "compliance": "m/Pa",
+    "compliance_error": "m/Pa",
+    "closures": "m",
+    "resolution": "m",
+}
 # What a solve stops at, within its tolerance.
 ROUNDING = {"balance", "residual", "stiffness_residual", "step_residual", "steps", "products"}
 MDR = rc.mdr
@@ -341,6 +369,10 @@ def unit_of(call, name, good):
         return "1/Pa"
     if call == SOFT_STATE.dynamic_stiffness:
         return "rad/s"
+    if call in (rc.JointStiffness, rc.JointClosures) and name in JOINT_UNITS:
+        return JOINT_UNITS[name]
+    if call == rc.JointStiffness.from_reflection and name == "impedances":
+        return "Pa*s/m"
     if call is rc.load_cycle:
         return None  # of forces or of displacements
     if call is rc.press and good.get("operator") is LINE_OPERATOR and name == "force":

@@ -180,6 +180,10 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.measurement.measurement import Measurement as Measurement
     from roughcontact.measurement.measurements import Measurements as Measurements
     from roughcontact.measurement.press_draws import PressedDraws as PressedDraws, press_draws as press_draws
+    from roughcontact.measurement.read_joint_table import (
+        JointTable as JointTable,
+        read_joint_table as read_joint_table,
+    )
     from roughcontact.measurement.read_measurements import read_measurements as read_measurements
     from roughcontact.memory import MemoryWarning as MemoryWarning
     from roughcontact.slabs.slabs import Slabs as Slabs

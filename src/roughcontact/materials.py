@@ -12,6 +12,7 @@ from typing import Any, TypeAlias
 from roughcontact.errors import InputError, placed
 from roughcontact.guesses import hinted
 from roughcontact.material import Solid, inverse_sum, require_solid
+from roughcontact.theory.joints.plane_waves import impedance
 from roughcontact.validation import moderate, require, require_numbers, scalar
 
 __all__ = [
@@ -70,6 +71,11 @@ class Material:
     def __post_init__(self) -> None:
         require_numbers(self, hardness="Pa", conductivity="W/m/K", resistivity="ohm*m", density="kg/m^3")
         object.__setattr__(self, "sources", MappingProxyType(dict(self.sources)))
+
+    @property
+    def impedance(self) -> float:
+        """Acoustic impedance of longitudinal waves [Pa s/m]."""
+        return impedance(self.solid.young_modulus, self.solid.poisson_ratio, self.density)
 
     def __reduce__(self) -> tuple[type[Material], tuple[Any, ...]]:
         """Return how copy and pickle rebuild the material: a view of a mapping can be neither copied nor pickled."""

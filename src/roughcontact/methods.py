@@ -85,6 +85,10 @@ if TYPE_CHECKING:
         iwan_distribution as iwan_distribution,
         jenkins_elements as jenkins_elements,
     )
+    from roughcontact.measurement.inference_dataset import (
+        inference_dataset as inference_dataset,
+        inference_record as inference_record,
+    )
     from roughcontact.plot.answers import (
         plot_curve as plot_curve,
         plot_flow as plot_flow,
@@ -96,6 +100,7 @@ if TYPE_CHECKING:
     )
     from roughcontact.plot.creep_plot import creep_curve as creep_curve
     from roughcontact.plot.detachment_plot import detachment_force as detachment_force
+    from roughcontact.plot.joints.inference_plot import joint_inference as joint_inference
     from roughcontact.plot.jumps import jump_loop as jump_loop
     from roughcontact.plot.notebook import (
         adhesive_curve_html as adhesive_curve_html,
@@ -166,11 +171,13 @@ else:
         "joints.joint_dataset": "joint_dataset joint_record",
         "joints.pressure_levels": "shear_history",
         "joints.reduced_laws": "iwan_distribution jenkins_elements",
+        "measurement.inference_dataset": "inference_dataset inference_record",
         "plot.answers": "plot_curve plot_flow plot_flux plot_loop plot_solution plot_state plot_surface",
         "plot.creep_plot": "creep_curve",
         "plot.detachment_plot": "detachment_force",
         "plot.shear_plot": "shear_loop",
         "plot.sliding_plot": "friction_speeds",
+        "plot.joints.inference_plot": "joint_inference",
         "plot.jumps": "jump_loop",
         "plot.notebook": (
             "adhesive_curve_html curve_html detachment_html loop_html solution_html state_html surface_html"

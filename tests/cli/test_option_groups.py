@@ -160,9 +160,11 @@ def test_help_of_a_field_is_what_the_recipe_says(made):
 def test_each_kind_of_job_is_done_by_its_command(name, monkeypatch, tmp_path, rough, capsys):
     plain = (
         smallest(name)
-        if name == "theory"
+        if name in ("theory", "infer")
         else {"job": name, "source": {"file": str(rough), "periodic": False}}
     )
+    table = tmp_path / "joint.csv"
+    table.write_text("pressure [MPa], stiffness [N/um/mm^2], error [%]\n7, 20, 5\n")
     if name == "creep":
         viscoelastic.standard_solid(1e9, 2e9, 1.0).write(tmp_path / "rubber.toml")
         plain["history"] = {"history": "0s:0nm,1s:1nm"}
@@ -187,6 +189,7 @@ def test_each_kind_of_job_is_done_by_its_command(name, monkeypatch, tmp_path, ro
         "shear": {"shear": {"pressures": "1GPa", "friction": "0.2"}},
         "sliding": {"sliding": {"pressure": "1MPa", "speeds": "1m/s"}},
         "joint": {"pressure": {"bolt_force": "1N", "head": "13mm", "hole": "9mm", "thickness": "1cm"}},
+        "infer": {"source": {"file": str(table)}},
         "adhesion press": {"load": {"depth": "-2nm"}},
         "adhesion curve": {"loads": {"depths": "-2nm,2nm"}},
         "adhesion loop": {"turn": {"depth": "1nm", "points": "2"}},

@@ -11,7 +11,7 @@ ROWS, COLUMNS = 40, 80  # of a screen
 JOBS = [
     *("press", "leak", "shear", "curve", "creep", "sliding", "joint"),
     *("adhesion press", "adhesion curve", "adhesion loop", "adhesion detach"),
-    *("surface prepare", "surface make", "surface specified", "theory"),
+    *("surface prepare", "surface make", "surface specified", "theory", "infer"),
 ]
 
 

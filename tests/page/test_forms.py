@@ -23,7 +23,7 @@ def field_of(form, name):
 
 
 @pytest.mark.parametrize(
-    "job", sorted(JOBS.keys() - {"theory", "leak", "shear", "creep", "sliding", "joint"})
+    "job", sorted(JOBS.keys() - {"theory", "leak", "shear", "creep", "sliding", "joint", "infer"})
 )
 def test_every_job_has_the_steps_of_the_preparation(job):
     form = forms()["jobs"][job]["preparation"]
@@ -62,7 +62,7 @@ def test_a_source_that_nothing_makes_again_has_no_form():
     assert forms()["sources"]["self-affine"]["title"] == SelfAffine.TITLE
 
 
-@pytest.mark.parametrize("name", ["theory", "leak", "shear", "creep", "sliding", "joint"])
+@pytest.mark.parametrize("name", ["theory", "leak", "shear", "creep", "sliding", "joint", "infer"])
 def test_a_job_that_the_page_does_not_show_has_no_form_and_is_refused(name):
     assert name not in forms()["jobs"]
     with pytest.raises(InputError, match=f"does not show the job '{name}': use the command") as met:

@@ -170,6 +170,26 @@ OUT_OF_RANGE = {
     "NominalPressures.pressures": ("5MPa:1MPa:3", "1kPa:1MPa:100"),
     "JointTheories.theory": ("hertz", "persson", "mikic"),
     "JointTheories.hardness": ("2", "2GPa", "2Pa"),
+    "JointMeasurement.file": ("", "joint.csv"),
+    "JointMeasurement.columns": ("", "pressure [MPa], stiffness [N/um/mm^2]"),
+    "JointMeasurement.quantity": ("depth", "stiffness"),
+    "JointMeasurement.errors": ("0%", "5%"),
+    "JointMeasurement.gain": ("100%", "5%"),
+    "JointMeasurement.resolution": ("0nm", "5um"),
+    "JointMeasurement.compliance": ("-1m/Pa", "1e-14m/Pa"),
+    "JointMeasurement.compliance_error": ("0m/Pa", "1e-14m/Pa"),
+    "JointMeasurement.frequency": ("2", "2MHz", "2Hz"),
+    "JointMeasurement.impedance": ("-1Pa*s/m", "46MPa*s/m"),
+    "JointMeasurement.sha256": ("0" * 63, "0" * 64),
+    "MeasuredJoint.area": ("0m^2", "1mm^2"),
+    "MeasuredJoint.branch": ("reloading", "loading", "unloading"),
+    "MeasuredJoint.modulus_error": ("0%", "5%"),
+    "JointProfile.rms": ("0um", "5um"),
+    "JointProfile.rms_error": ("-5%", "5%"),
+    "JointProfile.rolloff": ("0um", "5um"),
+    "JointProfile.rolloff_error": ("200%", "5%"),
+    "JointProfile.hurst": ("1.3", "0.8"),
+    "JointProfile.hurst_error": ("0", "0.15"),
     "SmoothBody.shape": ("cube", "sphere", "cylinder", "paraboloid"),
     "SmoothBody.radius": ("0mm", "5um"),
     "SmoothBody.slope": ("0", "0.1"),
@@ -191,6 +211,7 @@ INSTRUCTED = {
     *("File.file", "File.channel", "File.unit", "File.sha256", "InPython.surface_sha256"),
     *("LoadHistory.history", "ViscoelasticBody.material", "ViscoelasticBody.sha256"),
     *("JointPressure.pressure_field", "JointPressure.sha256", "Shear.pressures"),
+    *("JointMeasurement.file", "JointMeasurement.columns", "JointMeasurement.sha256"),
 }
 # What no field takes, but flags and names by their kind; TOML has all of them, except bytes and the last three.
 WRONG_KINDS = {
@@ -213,6 +234,7 @@ NUMBERS = {"zero", "nan", "infinity", "negative infinity"}
 # Fields in which any text is a name, and those in which 0 is a value.
 NAMES = {
     *("ViscoelasticBody.material", "JointPressure.pressure_field"),
+    *("JointMeasurement.file", "JointMeasurement.columns"),
     *("File.file", "File.channel", "InPython.history"),
 }
 FROM_ZERO = {

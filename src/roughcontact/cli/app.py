@@ -27,6 +27,7 @@ if TYPE_CHECKING:  # tools that bundle programs follow only imports that are wri
         conductance_command as conductance_command,
         creep_command as creep_command,
         curve_command as curve_command,
+        infer_command as infer_command,
         joint_command as joint_command,
         leak_command as leak_command,
         press_command as press_command,

@@ -15,7 +15,18 @@ __all__ = ["ADHESION", "ALONE", "STUDY", "SURFACE", "do"]
 
 ALONE = {
     name: f"contact.{name}_command"
-    for name in ("press", "leak", "shear", "joint", "curve", "creep", "sliding", "conductance", "theory")
+    for name in (
+        "press",
+        "leak",
+        "shear",
+        "joint",
+        "curve",
+        "creep",
+        "sliding",
+        "conductance",
+        "theory",
+        "infer",
+    )
 }
 ALONE |= {name: f"{name}_command" for name in ("run", "serve", "doctor")}
 ADHESION = {

@@ -36,7 +36,7 @@ _OPTIONS = (
     (re.compile(r"\bthe width or \(Ly, Lx\)"), "the width or height x width"),
     (re.compile(r"\bsize=\(([^,()]+), ([^,()]+)\)"), r"--size '\1 x \2'"),
     (re.compile(r"\bhardness='([\w-]+)'"), r"--hardness \1"),
-    (re.compile(r"\b(channel|unit|size|hardness)=(?=['\d])"), r"--\1 "),
+    (re.compile(r"\b(channel|unit|size|hardness|quantity|columns)=(?=['\d])"), r"--\1 "),
     (re.compile(r"\brc\.Solid\(210e9, 0\.3\)"), "--young 210GPa --poisson 0.3"),
     (re.compile(r"\b(channel|unit|size)="), r"--\1"),
     (re.compile(r"\b(despike|mask)e?d\(\)"), r"'surface prepare --\1'"),

@@ -51,6 +51,7 @@ _STEMS = {
     "sliding": "sliding",
     "joint": "joint",
     "theory": "theory",
+    "infer": "inference",
     "adhesion press": "adhesive_state",
     "adhesion curve": "adhesive_curve",
     "adhesion loop": "adhesive_loop",

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 from roughcontact.files.length_units import is_length
 
-__all__ = ["VALIDITY", "column_order", "column_units"]
+__all__ = ["VALIDITY", "column_names", "column_order", "column_units"]
 
 VALIDITY = re.compile(r"valid|\[?1/0\]?", re.IGNORECASE)  # name of a column that marks measured heights
 
@@ -24,13 +24,18 @@ def column_order(lines: Sequence[str], columns: int) -> tuple[int, ...]:
     """
     given = tuple(range(columns))
     for line in reversed(lines):
-        names = [re.split(r"[_/\[(.]", name)[0].strip().casefold() for name in _parts_of(line, columns)]
+        names = column_names(line, columns)
         words = _PLACES if columns > 2 else (_PLACE,)
         places = [[k for k in range(len(names)) if re.fullmatch(word, names[k])] for word in words]
         if all(len(each) == 1 for each in places):
             first = tuple(each[0] for each in places)
             return (*first, *(k for k in given if k not in first))
     return given
+
+
+def column_names(line: str, columns: int) -> list[str]:
+    """Return the names of columns in a line, in lower case and without units; nothing if their number is different."""
+    return [re.split(r"[_/\[(.]", name)[0].strip().casefold() for name in _parts_of(line, columns)]
 
 
 def _parts_of(line: str, columns: int) -> list[str]:

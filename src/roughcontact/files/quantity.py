@@ -11,6 +11,7 @@ from roughcontact.errors import InputError
 __all__ = [
     "ANGLE",
     "AREA",
+    "COMPLIANCE_AREA",
     "CONDUCTIVITY",
     "DENSITY",
     "ENERGY_PER_AREA",
@@ -18,6 +19,7 @@ __all__ = [
     "FORCE_PER_LENGTH",
     "FREQUENCY",
     "HARDNESS",
+    "IMPEDANCE",
     "LENGTH",
     "MODULUS",
     "PRESSURE",
@@ -66,6 +68,8 @@ PRESSURE = Kind("a pressure", "Pa", "1MPa")
 MODULUS = Kind("a modulus", "Pa", "110GPa")
 HARDNESS = Kind("a hardness", "Pa", "2GPa")
 STIFFNESS_PER_AREA = Kind("a stiffness per area", "Pa/m", "N/um/mm^2")
+COMPLIANCE_AREA = Kind("a closure over pressure", "m/Pa", "1e-14m/Pa")
+IMPEDANCE = Kind("an acoustic impedance", "Pa*s/m", "46MPa*s/m")
 RESISTIVITY = Kind("a resistivity", "ohm*m", "17nohm*m")
 ENERGY_PER_AREA = Kind("an energy per area", "J/m^2", "50mJ/m^2")
 CONDUCTIVITY = Kind("a thermal conductivity", "W/m/K", "400W/m/K")

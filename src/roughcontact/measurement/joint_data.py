@@ -11,7 +11,7 @@ from roughcontact.cached import cached_property
 from roughcontact.errors import InputError
 from roughcontact.theory.joints.ultrasound import stiffness_from_reflection
 from roughcontact.units import in_si
-from roughcontact.validation import Array, number, positive, require, require_numbers
+from roughcontact.validation import Array, number, numeric, positive, require, require_numbers
 
 __all__ = ["JointClosures", "JointData", "JointStiffness"]
 
@@ -89,6 +89,7 @@ class JointStiffness:
         object.__setattr__(self, "gain", float(positive(number(self.gain, "gain"), "gain", zero=True)))
 
     @classmethod
+    @numeric(pressures="Pa", frequency="Hz", impedances="Pa*s/m")
     def from_reflection(
         cls,
         pressures: Array,

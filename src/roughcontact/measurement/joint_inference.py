@@ -6,9 +6,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from roughcontact import methods
 from roughcontact.guesses import hinted
 from roughcontact.measurement.importance import Posterior
-from roughcontact.measurement.joint_data import JointData
+from roughcontact.measurement.joint_data import JointClosures, JointData
 from roughcontact.measurement.joint_model import JointModel
 from roughcontact.validation import Array, numeric, require
 
@@ -85,6 +86,10 @@ class JointInference:
     model: JointModel
     posterior: Posterior
 
+    plot = methods.joint_inference
+    to_dataset = methods.inference_dataset
+    to_record = methods.inference_record
+
     @property
     def fits(self) -> bool:
         """Whether a joint of the model departs as far with a probability of 2 % or more."""
@@ -137,10 +142,7 @@ class JointInference:
             Interfacial stiffness per area [Pa/m] of another joint of the posterior.
         """
         p = np.log(np.atleast_1d(pressures).astype(np.float64))
-        rng = np.random.default_rng(0)
-        points = self.posterior.points[
-            rng.choice(len(self.posterior.weights), 4000, p=self.posterior.weights)
-        ]
+        rng, points = self._drawn()
         found = np.full((3, p.size), np.nan)
         for j, each in enumerate(p):
             one = np.array([each])
@@ -149,8 +151,33 @@ class JointInference:
                 continue
             mean, covariance = self.model.stiffness(kept, one)
             drawn = mean[:, 0] + np.sqrt(covariance[:, 0, 0]) * rng.standard_normal(len(kept))
-            found[:, j] = np.exp(np.quantile(drawn, [(1 - level) / 2, 0.5, (1 + level) / 2]))
+            found[:, j] = np.exp(np.quantile(drawn, _ends(level)))
         return found[0], found[1], found[2]
+
+    @numeric(pressures="Pa")
+    def predicted_closures(self, pressures: Array, level: float = 0.9) -> tuple[Array, Array, Array]:
+        """Return the closures of joints like this one.
+
+        Parameters
+        ----------
+        pressures : array, shape (n,)
+            Nominal pressures [Pa], increasing, within those of the measurement.
+        level : float
+            Probability of the band.
+
+        Returns
+        -------
+        low, median, high : array, shape (n,)
+            Closure since the first of these pressures [m] of another joint of the posterior.
+        """
+        data = JointClosures(pressures, np.zeros(np.shape(pressures)), resolution=np.array(1.0))
+        rng, points = self._drawn()
+        kept = points[self.model.inside(points, data.log_pressures)]
+        mean, covariance = data.observed(*self.model.stiffness(kept, data.log_pressures))
+        scatter = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2))
+        drawn = mean + scatter * rng.standard_normal(mean.shape)
+        low, median, high = np.pad(np.quantile(drawn, _ends(level), axis=0), ((0, 0), (1, 0)))
+        return low, median, high
 
     @numeric(height="m")
     def share_below(self, height: float) -> float:
@@ -176,6 +203,11 @@ class JointInference:
         values, weights = self.exponent * rms + (1 - self.exponent) * rolloff, self.posterior.weights
         return float(np.sqrt(weights @ (values - weights @ values) ** 2))
 
+    def _drawn(self) -> tuple[np.random.Generator, Array]:
+        """Return a generator, and parameters of joints of the posterior, shape (4000, 5)."""
+        rng, weights = np.random.default_rng(0), self.posterior.weights
+        return rng, self.posterior.points[rng.choice(len(weights), 4000, p=weights)]
+
     def _heights(self, shares: Array | float) -> Array:
         rms, rolloff = self.posterior.points[:, :2].T
         values = self.exponent * rms + (1 - self.exponent) * rolloff
@@ -187,3 +219,8 @@ class JointInference:
             return f"JointInference(not this model: p = {self.p_value:.2g}, by its {self.departs})"
         low, high = self.interval()
         return f"JointInference(h_eff = {self.effective_height:.3g} m, {low:.3g} to {high:.3g} with 90 %)"
+
+
+def _ends(level: float) -> list[float]:
+    """Return the quantiles between which a band of this probability lies, with the median between them."""
+    return [(1 - level) / 2, 0.5, (1 + level) / 2]

@@ -10,6 +10,7 @@ from roughcontact.recipe.in_time.sliding_job import SlidingJob
 from roughcontact.recipe.jobs import JOBS
 from roughcontact.recipe.joint_job import JointJob
 from roughcontact.recipe.leak_job import LeakJob
+from roughcontact.recipe.measured.infer_job import InferJob
 from roughcontact.recipe.outputs import OUTPUTS, Theories
 from roughcontact.recipe.recipe_fields import Spec, specs
 from roughcontact.recipe.shear_job import ShearJob
@@ -18,7 +19,7 @@ from roughcontact.recipe.theory_job import TheoryJob
 
 __all__ = ["WITHOUT_FORM", "forms", "label_of", "names_of_fields"]
 
-WITHOUT_FORM = (TheoryJob, LeakJob, ShearJob, CreepJob, SlidingJob, JointJob)
+WITHOUT_FORM = (TheoryJob, LeakJob, ShearJob, CreepJob, SlidingJob, JointJob, InferJob)
 
 _LEFT_OUT = "file"  # it is dropped
 _SHOWN = Theories  # the only part of an answer with a form

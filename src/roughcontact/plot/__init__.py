@@ -39,7 +39,8 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.plot.flows.flux_plot import flux_map as flux_map, spot_resistances as spot_resistances
     from roughcontact.plot.flows.gap_flow_map import flow_map as flow_map
     from roughcontact.plot.flows.leak_plot import leak_curve as leak_curve
-    from roughcontact.plot.joint_maps import joint_figure as joint_figure
+    from roughcontact.plot.joints.inference_plot import joint_inference as joint_inference
+    from roughcontact.plot.joints.joint_maps import joint_figure as joint_figure
     from roughcontact.plot.jumps import (
         jump_area as jump_area,
         jump_figure as jump_figure,

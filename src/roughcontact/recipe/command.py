@@ -8,6 +8,7 @@ from dataclasses import fields, is_dataclass
 from typing import Any
 
 from roughcontact.recipe.jobs import Job, is_of_profile
+from roughcontact.recipe.measured.infer_job import JointMeasurement
 from roughcontact.recipe.recipe_fields import option_of, specs, words_of
 from roughcontact.recipe.source import File, SelfAffine
 from roughcontact.recipe.specified import Specified, SpecifiedJoint
@@ -29,7 +30,7 @@ def command_of(job: Job, recipe: str = "job.toml") -> str:
     """
     if isinstance(job.source, SpecifiedJoint):
         return _line(job.NAME, *_options(job))
-    if isinstance(job.source, File):
+    if isinstance(job.source, File | JointMeasurement):
         return _line(*_words(job, job.source.file), *_options(job))
     if not isinstance(job.source, SelfAffine | Specified) or is_of_profile(job):
         return _line("run", recipe)
@@ -53,7 +54,7 @@ def _line(*parts: str) -> str:
 def _options(job: Job) -> Iterator[str]:
     for each in fields(job):
         part = getattr(job, each.name)
-        if each.name != "source" or isinstance(part, File | SpecifiedJoint):
+        if each.name != "source" or isinstance(part, File | JointMeasurement | SpecifiedJoint):
             yield from _options_of(part)
 
 

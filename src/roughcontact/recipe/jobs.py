@@ -14,6 +14,7 @@ from roughcontact.recipe.in_time.sliding_job import SlidingJob
 from roughcontact.recipe.job_calls import Call
 from roughcontact.recipe.joint_job import JointJob
 from roughcontact.recipe.leak_job import LeakJob
+from roughcontact.recipe.measured.infer_job import InferJob
 from roughcontact.recipe.shear_job import ShearJob
 from roughcontact.recipe.source import File, SmoothBody
 from roughcontact.recipe.theory_job import TheoryJob
@@ -37,7 +38,8 @@ JobOfHeights: TypeAlias = (
     | SlidingJob
     | JointJob
 )
-Job: TypeAlias = JobOfHeights | TheoryJob
+JobWithoutHeights: TypeAlias = TheoryJob | InferJob
+Job: TypeAlias = JobOfHeights | JobWithoutHeights
 JOBS: Mapping[str, type[Any]] = {
     job.NAME: job
     for job in (
@@ -54,12 +56,13 @@ JOBS: Mapping[str, type[Any]] = {
         SlidingJob,
         JointJob,
         TheoryJob,
+        InferJob,
     )
 }
 
 
 def surface_calls(job: Job) -> list[Call]:
-    """Return the calls that read or make the surface of a job, and prepare it; none for theories without a surface.
+    """Return the calls that read or make the surface of a job, and prepare it; none for jobs without heights.
 
     Raises
     ------
@@ -67,7 +70,7 @@ def surface_calls(job: Job) -> list[Call]:
         If the source cannot be used: an example as a profile, heights that were made in Python, or a map that is
         periodic by option and cropped.
     """
-    if isinstance(job, TheoryJob):
+    if isinstance(job, JobWithoutHeights):
         return []
     made_of = [job.source, getattr(job.source, "lower", None), getattr(job.source, "upper", None)]
     by_option = any(isinstance(each, File) and each.periodic for each in made_of)
@@ -96,7 +99,7 @@ def calls_of(job: Job) -> Iterator[Call]:
 
 def contact_calls(job: Job) -> Iterator[Call]:
     """Yield the calls that press the prepared surface; none if a job only prepares heights."""
-    if isinstance(job, TheoryJob):
+    if isinstance(job, JobWithoutHeights):
         yield from job.calls()
     elif not isinstance(job, SurfaceJob):
         yield from job.bodies.calls()

@@ -13,7 +13,7 @@ from roughcontact.recipe.contact import Contact, pressed
 from roughcontact.recipe.job_calls import Call, Name
 from roughcontact.recipe.plastic_flow import LoopOfLoads, yields_at
 from roughcontact.recipe.preparation import Preparation
-from roughcontact.recipe.recipe_fields import check, described, value_of, values_of
+from roughcontact.recipe.recipe_fields import check, described, require_with, value_of, values_of
 from roughcontact.recipe.source import Source
 from roughcontact.recipe.texts import Amount, Choice, Likely, PureNumber, sha256, word
 
@@ -26,15 +26,6 @@ _ANGLE = Amount(ANGLE, "the half angle", positive=False, zero=True)
 
 def _of_bolt(words: str, example: str) -> Any:
     return described(words, example, read=_LENGTH, needs="bolt_force", everyday=True)
-
-
-def _require_all(part: Any, first: str, **others: str) -> None:
-    """Raise an error if the first field is given without one of the others; their values are examples."""
-    for name, example in others.items():
-        if getattr(part, first) is not None and getattr(part, name) is None:
-            raise InputError(
-                f"`{first}` is given without `{name}`", f"give `{name}`, such as {example}", name
-            )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -70,7 +61,7 @@ class JointPressure:
 
     def __post_init__(self) -> None:
         check(self)
-        _require_all(self, "bolt_force", head="13mm", hole="9mm", thickness="10mm")
+        require_with(self, "bolt_force", head="13mm", hole="9mm", thickness="10mm")
 
     def calls(self) -> Iterator[Call]:
         """Yield the call that reads or makes the field."""
@@ -121,7 +112,7 @@ class JointLeak:
 
     def __post_init__(self) -> None:
         check(self)
-        _require_all(self, "leak", viscosity="1mPa*s", drop="1bar")
+        require_with(self, "leak", viscosity="1mPa*s", drop="1bar")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

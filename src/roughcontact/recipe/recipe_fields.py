@@ -18,6 +18,7 @@ __all__ = [
     "hints_of",
     "option_of",
     "refused",
+    "require_with",
     "specs",
     "value_of",
     "values_of",
@@ -159,6 +160,15 @@ def check(part: Any) -> None:
         raise together(mistakes)
     for names, must in ((getattr(part, "ONE_OF", ()), True), (getattr(part, "AT_MOST", ()), False)):
         _require_one(part, names, must)
+
+
+def require_with(part: Any, first: str, **others: str) -> None:
+    """Raise an error if the first field is given without one of the others; their values are examples."""
+    for name, example in others.items():
+        if getattr(part, first) is not None and getattr(part, name) is None:
+            raise InputError(
+                f"`{first}` is given without `{name}`", f"give `{name}`, such as {example}", name
+            )
 
 
 def option_of(name: str) -> str:

@@ -26,6 +26,7 @@ __all__ = [
     "Likely",
     "Names",
     "PureNumber",
+    "Share",
     "band",
     "choose",
     "known_material",
@@ -94,6 +95,21 @@ class PureNumber:
                 f"{self.what} must lie between {self.low:g} and {self.high:g}{excluded}, not {text!r}",
                 f"give a number such as {self.example}",
             )
+        return value
+
+
+@dataclass(frozen=True, slots=True)
+class Share:
+    """Reads a fraction above 0 and below 1: "5%" or "0.05"."""
+
+    what: str
+
+    def __call__(self, text: str) -> float:
+        """Return the value that a text states."""
+        number = quantity.parse_number(text.removesuffix("%"), "5%")
+        value = number / 100 if text.endswith("%") else number
+        if not 0 < value < 1:
+            raise InputError(f"{self.what} must lie between 0 and 100 %, not {text!r}", "give one such as 5%")
         return value
 
 

@@ -24,6 +24,7 @@ from roughcontact.recipe.in_time.viscoelastic_body import ViscoelasticBody
 from roughcontact.recipe.jobs import JOBS, Job
 from roughcontact.recipe.joint_job import JointPressure
 from roughcontact.recipe.measured.incident_wave import Ultrasound
+from roughcontact.recipe.measured.infer_job import InferJob, JointMeasurement
 from roughcontact.recipe.outputs import OUTPUTS
 from roughcontact.recipe.prescribed_loads import RisingLoads
 from roughcontact.recipe.recipe_fields import Spec, given, hints_of, refused
@@ -46,10 +47,11 @@ __all__ = [
 ]
 
 J = TypeVar("J", bound=Job)
-# Parts of jobs that name a file beside that of the heights, and the field.
+# Parts of jobs that name a file other than that of the heights, and the field.
 _MORE_FILES: dict[str, tuple[type[Any], str]] = {
     "bodies": (ViscoelasticBody, "material"),
     "pressure": (JointPressure, "pressure_field"),
+    "source": (JointMeasurement, "file"),
 }
 FORMAT = 1  # of recipes: raise it when the meaning of written recipes changes
 
@@ -343,8 +345,9 @@ def with_files(job: J, change: Callable[[File], File]) -> J:
 
     if isinstance(job, TheoryJob):
         return job
-    with within("source"):
-        job = replace(job, source=changed(job.source))
+    if not isinstance(job, InferJob):
+        with within("source"):
+            job = replace(job, source=changed(job.source))
     for name, (kind, of) in _MORE_FILES.items():
         if isinstance(part := getattr(job, name, None), kind) and (path := getattr(part, of)) is not None:
             with within(name):

@@ -45,7 +45,7 @@ def joint(job: JointJob, *, answer: Answer) -> None:
     from roughcontact.labels.labelled import plain_values, units_of
     from roughcontact.labels.note import Note, Rank
     from roughcontact.labels.variables import VARIABLES
-    from roughcontact.plot.joint_maps import joint_figure
+    from roughcontact.plot.joints.joint_maps import joint_figure
 
     hardness_of_job(job)
     with output(answer.out) as folder:

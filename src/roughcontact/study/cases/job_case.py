@@ -65,7 +65,7 @@ class JobParameters(Parameters):
         mistakes = list(_seeds(plain.get("source"), "source"))
         try:
             job = from_plain(plain)
-            if job.NAME in ("surface", "theory"):
+            if job.NAME in ("surface", "theory", "infer"):
                 raise InputError(
                     "a study only supports jobs that press surfaces", "take press or curve", "job"
                 )
