@@ -13,6 +13,7 @@ import sys
 import tokenize
 from collections import Counter, defaultdict
 from collections.abc import Collection, Container, Iterator, Mapping
+from functools import cache
 from pathlib import Path
 from types import ModuleType
 
@@ -80,6 +81,12 @@ def options() -> dict[str, int]:
     return dict(sorted(walk("", get_command(app)), key=lambda item: -item[1]))
 
 
+@cache
+def tree(path: Path) -> ast.Module:
+    """Return the syntax tree of a file, which is parsed once."""
+    return ast.parse(path.read_text(encoding="utf-8"))
+
+
 def import_graph(source: Path = SOURCE, *, typed: Collection[str] = ()) -> dict[str, set[str]]:
     """Return the modules of a package that each of them imports, in functions too; those in `typed` for types, too.
 
@@ -88,7 +95,7 @@ def import_graph(source: Path = SOURCE, *, typed: Collection[str] = ()) -> dict[
     trees = {}
     for path in source.rglob("*.py"):
         parts = path.relative_to(source.parent).with_suffix("").parts
-        trees[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = ast.parse(path.read_text("utf-8"))
+        trees[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = tree(path)
     return {
         name: set(_imports(tree, trees, typed=name in typed)) & trees.keys() - {name}
         for name, tree in trees.items()
@@ -102,7 +109,9 @@ def _imports(tree: ast.AST, known: Container[str], *, typed: bool) -> Iterator[s
         elif isinstance(node, ast.ImportFrom):
             whole = [f"{node.module}.{alias.name}" for alias in node.names]
             yield from (name if name in known else node.module or "" for name in whole)
-        elif not typed and isinstance(node, ast.If) and ast.unparse(node.test) == "TYPE_CHECKING":
+        elif isinstance(node, ast.expr):
+            pass  # holds no statement
+        elif not typed and isinstance(node, ast.If) and getattr(node.test, "id", "") == "TYPE_CHECKING":
             yield from _imports(ast.Module(node.orelse, []), known, typed=typed)
         else:
             yield from _imports(node, known, typed=typed)

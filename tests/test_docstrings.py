@@ -2,7 +2,6 @@
 
 import doctest
 
-import matplotlib.pyplot as plt
 import pytest
 
 import roughcontact_thesis
@@ -31,10 +30,7 @@ def test_examples(test, tmp_path, monkeypatch):
         pytest.importorskip("tqdm")
     monkeypatch.chdir(tmp_path)  # what an example writes
     report = []
-    try:
-        doctest.DocTestRunner(optionflags=FLAGS).run(test, out=report.append)
-    finally:
-        plt.close("all")
+    doctest.DocTestRunner(optionflags=FLAGS).run(test, out=report.append)
     assert not report, "".join(report)
 
 

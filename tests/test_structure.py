@@ -82,6 +82,7 @@ def room_of(path):
     return path.relative_to(SOURCE).parts[0].removesuffix(".py")
 
 
+@cache
 def imported(tree):
     """Return the names of all modules that `tree` imports, those inside functions too."""
     names = set()
@@ -115,9 +116,8 @@ def called(tree):
     }
 
 
-@cache
 def trees():
-    return {path: ast.parse(path.read_text(encoding="utf-8")) for path in FILES}
+    return {path: house_sizes.tree(path) for path in FILES}
 
 
 def modules():
@@ -148,9 +148,7 @@ def test_nothing_needs_the_package_of_the_figures():
 
 
 def test_the_figures_are_there_without_a_circle():
-    parsed = {
-        f"roughcontact_thesis.{path.stem}": ast.parse(path.read_text(encoding="utf-8")) for path in THESIS
-    }
+    parsed = {f"roughcontact_thesis.{path.stem}": house_sizes.tree(path) for path in THESIS}
     assert len(parsed) > 50
     assert house_sizes.circles(house_sizes.import_graph(THESIS[0].parent)) == []
     assert [name for name, tree in parsed.items() if "print" in called(tree)] == []
@@ -311,7 +309,7 @@ def test_each_public_class_stands_once():
     names = Counter(
         node.name
         for path in [*FILES, *THESIS]
-        for node in ast.parse(path.read_text(encoding="utf-8")).body
+        for node in house_sizes.tree(path).body
         if isinstance(node, ast.ClassDef) and not node.name.startswith("_")
     )
     assert [name for name, count in names.items() if count > 1] == []

@@ -21,6 +21,7 @@ import json
 import sys
 import tomllib
 from dataclasses import asdict, replace
+from functools import cache
 from pathlib import Path
 from typing import Any, cast
 
@@ -67,7 +68,8 @@ FEW = 8  # values that are listed one by one
 # What is there
 
 
-def entries(folder: Path = FOLDER) -> tuple[Entry, ...]:
+@cache  # every page is written of them, and judging takes seconds
+def entries(folder: Path) -> tuple[Entry, ...]:
     """Return what `folder` says about every figure."""
     captions = tomllib.loads((folder / "captions.toml").read_text(encoding="utf-8"))
     found = read_simple(folder)

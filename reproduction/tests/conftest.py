@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from cli.conftest import invoke  # noqa: F401
+from pictures import _figures_are_closed  # noqa: F401
 
 HOME = Path(__file__).parent.parent
 GROUP = "roughcontact.commands"

@@ -85,7 +85,7 @@ def test_the_page_begins_with_its_findings(script, page):
 def test_the_first_page_has_a_dozen_claims_that_all_have_a_row(script, page):
     rows = page.split("## A dozen claims\n")[1].split("\n## ")[0]
     assert rows.count("](reproduction-figures.md#") == len(script.claim_pages.DOZEN) == 12
-    named = [each.claim for entry in script.entries() for each in entry.verdicts]
+    named = [each.claim for entry in script.entries(FOLDER) for each in entry.verdicts]
     assert all(named.count(claim) == 1 for claim in script.claim_pages.DOZEN)
 
 
@@ -100,7 +100,7 @@ def test_a_row_has_a_verdict_for_each_range_that_is_computed(script):
 
 
 def test_every_claim_is_quoted_and_says_what_decided(script):
-    every = [(each.name, verdict) for each in script.entries() for verdict in each.verdicts]
+    every = [(each.name, verdict) for each in script.entries(FOLDER) for verdict in each.verdicts]
     claims = [(name, verdict.claim) for name, verdict in every]
     assert len(set(claims)) == len(claims)
     for _, verdict in every:
@@ -112,7 +112,9 @@ def test_every_claim_is_quoted_and_says_what_decided(script):
 
 
 def test_every_change_of_a_verdict_is_explained(script):
-    now = {(each.name, verdict.claim): verdict for each in script.entries() for verdict in each.verdicts}
+    now = {
+        (each.name, verdict.claim): verdict for each in script.entries(FOLDER) for verdict in each.verdicts
+    }
     former = tomllib.loads((FOLDER / "former.toml").read_text(encoding="utf-8"))["row"]
     assert len(former) == 107
     for row in former:
@@ -123,7 +125,11 @@ def test_every_change_of_a_verdict_is_explained(script):
 
 
 def test_every_change_since_the_first_edition_has_a_reason(script):
-    now = {(each.name, one.claim): (one.word, one.kind) for each in script.entries() for one in each.verdicts}
+    now = {
+        (each.name, one.claim): (one.word, one.kind)
+        for each in script.entries(FOLDER)
+        for one in each.verdicts
+    }
     with (FOLDER / "first-edition.csv").open(encoding="utf-8") as file:
         first = {(row["figure"], row["claim"]): (row["verdict"], row["kind"]) for row in csv.DictReader(file)}
     changed = tomllib.loads((FOLDER / "changed.toml").read_text(encoding="utf-8"))["row"]

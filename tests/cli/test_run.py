@@ -9,6 +9,7 @@ from typer.testing import CliRunner
 
 from roughcontact.cli.app import app
 
+pytestmark = pytest.mark.usefixtures("undrawn")
 RUNNER = CliRunner()
 JOB = """
 format = 1

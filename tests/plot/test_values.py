@@ -20,12 +20,6 @@ from roughcontact.plot.facts import quantity
 MODULUS = 1e11
 
 
-@pytest.fixture(autouse=True)
-def _no_figure_is_left():
-    yield
-    pyplot.close("all")
-
-
 @pytest.fixture(scope="module")
 def surface():
     grid = rc.Grid((32, 40), (1e-7, 1e-7))

@@ -1,6 +1,5 @@
 """Heights of other libraries in everything that looks at a surface: an answer as of NumPy's, or an error in words."""
 
-import matplotlib.pyplot as plt
 import numpy as np
 import pytest
 
@@ -50,12 +49,6 @@ BOTH_LIVE_THERE = {
     "resampled": lambda plane: rc.resampled(plane, rc.Grid((36, 40), 2e-6, periodic=True)),
     "levelled": lambda plane: plane.levelled("plane"),
 }
-
-
-@pytest.fixture(autouse=True)
-def _figures_are_closed():
-    yield
-    plt.close("all")
 
 
 def there(surface, library, dtype="float64"):

@@ -46,6 +46,7 @@ from roughcontact.theory.stiffness_laws import finite_size, pohrt_popov, rough_s
 ROUGH = rc.Moments(1e-14, 1e-2, 1e12)
 SPHERE = hertz.law(1e-2, 1e9)
 CELL = finite_size.Cell(0.8, 1e-7, 1e-3)
+MILLIMETRE = pint.UnitRegistry().Quantity(1.0, "mm")  # once: reading the definitions takes a second
 # Good values by the names of parameters, and where a name means something else in one place.
 GOOD = {
     **{
@@ -254,14 +255,13 @@ def test_what_is_no_number_is_refused(name):
 
 @pytest.mark.parametrize("name", FUNCTIONS)
 def test_a_value_with_a_dimension_is_refused_with_the_number_to_give(name):
-    metres = pint.UnitRegistry().Quantity(1.0, "mm")
     for argument, value in arguments(name)[0].items():
         if isinstance(value, float | np.ndarray):
-            assert "plain number" in refused(name, **{argument: value * metres})
+            assert "plain number" in refused(name, **{argument: value * MILLIMETRE})
         if isinstance(value, float):
-            assert f"give {value * 1e-3:.12g}" in refused(name, **{argument: value * metres})
+            assert f"give {value * 1e-3:.12g}" in refused(name, **{argument: value * MILLIMETRE})
         if isinstance(value, tuple):
-            assert "plain number" in refused(name, **{argument: tuple(one * metres for one in value)})
+            assert "plain number" in refused(name, **{argument: tuple(one * MILLIMETRE for one in value)})
 
 
 @pytest.mark.parametrize("name", [name for name in FUNCTIONS if numbers(name)])
