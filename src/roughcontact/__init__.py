@@ -97,6 +97,11 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.evaluation.theory_table import theory_table as theory_table
     from roughcontact.files.aside import WriteError as WriteError
     from roughcontact.files.file_errors import ReadError as ReadError, SurfaceWarning as SurfaceWarning
+    from roughcontact.files.measured.read_joint_table import (
+        JointTable as JointTable,
+        read_joint_table as read_joint_table,
+    )
+    from roughcontact.files.measured.read_measurements import read_measurements as read_measurements
     from roughcontact.files.read import read as read, read_line as read_line
     from roughcontact.files.read_adhesive_curve import read_adhesive_curve as read_adhesive_curve
     from roughcontact.files.read_curve import read_curve as read_curve
@@ -180,11 +185,6 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.measurement.measurement import Measurement as Measurement
     from roughcontact.measurement.measurements import Measurements as Measurements
     from roughcontact.measurement.press_draws import PressedDraws as PressedDraws, press_draws as press_draws
-    from roughcontact.measurement.read_joint_table import (
-        JointTable as JointTable,
-        read_joint_table as read_joint_table,
-    )
-    from roughcontact.measurement.read_measurements import read_measurements as read_measurements
     from roughcontact.memory import MemoryWarning as MemoryWarning
     from roughcontact.slabs.slabs import Slabs as Slabs
     from roughcontact.solver.active_set import ActiveSet as ActiveSet

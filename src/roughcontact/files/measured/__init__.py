@@ -1,0 +1,1 @@
+"""What was measured of one surface or joint: maps and profiles together, tables of stiffness."""
