@@ -44,7 +44,7 @@ Array = npt.NDArray[np.float64]
 def specimens(store: Path | None) -> xarray.Dataset:
     """Return the computed joints, from the folder of their study or as kept."""
     if store is None:
-        return xarray.load_dataset(DATA / "calibration.nc", engine="h5netcdf")
+        return xarray.load_dataset(DATA / "calibration.nc", engine="h5netcdf").isel(sample=0)
     with Store.open(store) as opened:
         found = export(opened)
     return found[["stiffness_per_area", "pressure"]].isel(sample=0)
