@@ -371,6 +371,8 @@ def unit_of(call, name, good):
         return "rad/s"
     if call in (rc.JointStiffness, rc.JointClosures) and name in JOINT_UNITS:
         return JOINT_UNITS[name]
+    if call == INFERRED.share_below:
+        return "m"
     if call == rc.JointStiffness.from_reflection and name == "impedances":
         return "Pa*s/m"
     if call is rc.load_cycle:
