@@ -10,6 +10,7 @@ chi-squared distribution.
 from __future__ import annotations
 
 import argparse
+import dataclasses
 import json
 from pathlib import Path
 
@@ -81,9 +82,8 @@ def fitted(points: Array, nodes: Array, curves: Array) -> JointEmulator:
     rows, samples, n = curves.shape
     correlation = np.einsum("rsi,rsj->ij", standard, standard) / (rows * (samples - 1))
     step = np.diff(nodes).mean()
-    return JointEmulator(
-        nodes[0] + step * np.arange(n), mean, deviation, correlation, np.zeros(n), rows * (samples - 1), 1.0
-    )
+    at, none = nodes[0] + step * np.arange(n), np.zeros(n)
+    return JointEmulator(at, mean, deviation, correlation, none, none, rows * (samples - 1), 1.0)
 
 
 def misfit(emulator: JointEmulator, points: Array, curves: Array) -> Array:
@@ -101,8 +101,8 @@ def distances(emulator: JointEmulator, points: Array, curves: Array, nodes: slic
     return np.einsum("rsi,rij,rsj->rs", residual, np.linalg.inv(covariance), residual)
 
 
-def larger(emulator: JointEmulator) -> None:
-    """Print how far joints beyond the largest of the design are from the law of their mean and scatter."""
+def larger(emulator: JointEmulator) -> Array:
+    """Return how far the mean of joints beyond the largest of the design is from that of independent pieces."""
     points, nodes, curves = ensemble("large")
     mean, covariance = emulator.at(*points.T, np.broadcast_to(nodes, (len(points), nodes.size)))
     deviation = np.sqrt(np.diagonal(covariance[0]))
@@ -117,6 +117,7 @@ def larger(emulator: JointEmulator) -> None:
     print(
         "  sd over that of the law", np.round(ratio[::3], 2), f"95 % between {ends[0]:.2f} and {ends[1]:.2f}"
     )
+    return np.asarray(curves[0].mean(axis=0) - mean[0])
 
 
 def main() -> None:
@@ -132,11 +133,13 @@ def main() -> None:
     spread = misfit(first, unseen, others)
     names = ("nodes", "mean", "deviation", "correlation")
     values = {name: getattr(first, name) for name in names} | {"misfit": spread, "freedom": first.freedom}
-    plain = JointEmulator(**values, inflation=1.0)
+    plain = JointEmulator(**values, departure=np.zeros(nodes.size), inflation=1.0)
     every = slice(0, None, 3)
     measured = distances(plain, unseen, others, every).ravel()
     d = plain.nodes[every].size
     inflation = float(np.quantile(measured, 0.9) / scipy.stats.chi2.ppf(0.9, d))
+    departure = larger(dataclasses.replace(plain, inflation=inflation))
+    values["departure"] = departure
     table = {name: np.round(value, 6).tolist() for name, value in values.items()} | {
         "inflation": round(inflation, 4)
     }
@@ -151,9 +154,6 @@ def main() -> None:
         print(
             f"{share:.0%} regions cover {covered:.3f} of {measured.size} unseen specimens, inflation {inflation:.3f}"
         )
-
-    if (DATA / "large.nc").is_file():
-        larger(JointEmulator(**values, inflation=inflation))
 
 
 if __name__ == "__main__":

@@ -99,6 +99,9 @@ MORE = [
     (rc.JointTopography, {"rms": 1e-6, "rms_error": 0.1, "rolloff": 1e-4, "rolloff_error": 0.3}),
     (rc.infer_joint, _OF_MEASURED),
     *((call, {"pressures": [1e7, 2e7]}) for call in (INFERRED.predicted, INFERRED.predicted_closures)),
+    (rc.plan_joint, {"pressures": np.geomspace(7e6, 1.4e8, 5), "errors": 0.05, "gain": 0.03, "modulus": 1.15e11,
+                     "modulus_error": 0.02, "areas": np.array([1e-6, 2e-6]),
+                     "profile": rc.JointTopography(1.2e-6, 0.5, 1e-4, 0.3)}),
     (INFERRED.share_below, {"height": 1e-6}),
     (rc.PressureField, {"pressure": np.full((2, 3), 1e6), "grid": 1e-3}),
     (rc.bolt_pressure, {"force": 1e3, "head": 13e-3, "hole": 9e-3, "thickness": 1e-2, "half_angle": 0.5}),
@@ -371,6 +374,8 @@ def unit_of(call, name, good):
         return "rad/s"
     if call in (rc.JointStiffness, rc.JointClosures) and name in JOINT_UNITS:
         return JOINT_UNITS[name]
+    if call == INFERRED.share_below:
+        return "m"
     if call == rc.JointStiffness.from_reflection and name == "impedances":
         return "Pa*s/m"
     if call is rc.load_cycle:

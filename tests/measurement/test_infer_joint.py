@@ -1,12 +1,21 @@
 """Inference from stiffness and closure of joints whose truth is known, drawn from the emulator itself."""
 
+import dataclasses
 import math
 
 import numpy as np
 import pytest
 
 import roughcontact as rc
-from roughcontact.measurement.joint_emulator import BAND, HURST, LEAST_AREA, SIDE, joint_emulator, terms
+from roughcontact.measurement.joint_emulator import (
+    BAND,
+    HURST,
+    LARGE,
+    LEAST_AREA,
+    SIDE,
+    joint_emulator,
+    terms,
+)
 from roughcontact.measurement.joint_model import JointModel, discrepancy
 from roughcontact.measurement.joint_plan import fisher_width
 from roughcontact.measurement.joint_topography import prior_of
@@ -217,11 +226,18 @@ class TestEmulator:
         emulator = joint_emulator()
         sides = np.array([SIDE[1], 4 * SIDE[1]])
         two = (np.full(2, 0.8), sides, np.full(2, 6.0), np.tile(emulator.nodes, (2, 1)))
-        mean, covariance = emulator.at(*two)
+        pieces = dataclasses.replace(emulator, departure=0 * emulator.departure)
+        mean, covariance = pieces.at(*two)
         variance = np.diagonal(covariance, axis1=1, axis2=2) - emulator.misfit**2
         np.testing.assert_allclose(variance[0] / variance[1], 16, rtol=1e-9)
         variance /= emulator.inflation
         np.testing.assert_allclose(mean[0] + variance[0] / 2, mean[1] + variance[1] / 2, rtol=1e-12)
+        softer, wider = emulator.at(*two)
+        np.testing.assert_array_equal(softer[0], mean[0])
+        beyond = (1 - 1 / 16) / (1 - (SIDE[1] / LARGE) ** 2)
+        np.testing.assert_allclose(softer[1] - mean[1], beyond * emulator.departure)
+        more = np.diagonal(wider[1] - covariance[1])
+        np.testing.assert_allclose(more, (beyond * emulator.departure / 2) ** 2, atol=1e-15)
 
 
 class TestPlan:
@@ -231,7 +247,7 @@ class TestPlan:
         gain=0.03,
         modulus=MODULUS,
         modulus_error=0.02,
-        areas=np.array([1e-6, 4e-6, 16e-6]),
+        areas=np.array([0.7e-6, 1.4e-6, 2.5e-6]),
         specimens=(1, 4, 16),
         profile=TOPOGRAPHY,
     )
@@ -243,7 +259,7 @@ class TestPlan:
     def test_the_least_total_area_is_found_or_none(self):
         wanted = self.PLAN.width[1, 1]
         area, number = self.PLAN.reaching(wanted)
-        assert area * number <= 16e-6
+        assert area * number <= 4 * 1.4e-6
         row, column = self.PLAN.areas.tolist().index(area), self.PLAN.specimens.tolist().index(number)
         assert self.PLAN.width[row, column] <= wanted
         assert self.PLAN.reaching(self.PLAN.width.min() / 2) is None

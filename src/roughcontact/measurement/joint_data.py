@@ -160,7 +160,28 @@ class JointStiffness:
         return np.log(self.pressures)
 
     def observed(self, mean: Array, covariance: Array) -> tuple[Array, Array]:
-        """Return both as they are."""
+        """Return mean and covariance of the measured values: both as they are.
+
+        Parameters
+        ----------
+        mean : array, shape (m, n)
+            Of ln(K/A0) at `log_pressures`, of m joints.
+        covariance : array, shape (m, n, n)
+
+        Returns
+        -------
+        mean : array, shape (m, d)
+            Of what is measured.
+        covariance : array, shape (m, d, d)
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import roughcontact as rc
+        >>> data = rc.JointStiffness([5e6, 10e6], [11e12, 21e12], errors=0.05)
+        >>> data.observed(np.full((1, 2), 30.0), np.zeros((1, 2, 2)))[0].tolist()
+        [[30.0, 30.0]]
+        """
         return mean, covariance
 
 
@@ -248,7 +269,29 @@ class JointClosures:
         return self._rule[0]
 
     def observed(self, mean: Array, covariance: Array) -> tuple[Array, Array]:
-        """Return mean and covariance of the closures, to the second and the first order of the scatter of ln(K/A0)."""
+        """Return mean and covariance of the closures, to the second and the first order of the scatter of ln(K/A0).
+
+        Parameters
+        ----------
+        mean : array, shape (m, n)
+            Of ln(K/A0) at `log_pressures`, of m joints.
+        covariance : array, shape (m, n, n)
+
+        Returns
+        -------
+        mean : array, shape (m, d)
+            Of what is measured.
+        covariance : array, shape (m, d, d)
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import roughcontact as rc
+        >>> data = rc.JointClosures([5e6, 10e6], [2e-6, 2.4e-6], resolution=1e-8)
+        >>> mean, _ = data.observed(np.full((1, 4), np.log(1e13)), np.zeros((1, 4, 4)))
+        >>> f"{mean[0, 0]:.1e} m"  # 5 MPa over 1e13 Pa/m
+        '5.0e-07 m'
+        """
         weights = self._rule[1]
         compliance = np.exp(-mean)
         bent = 1 + np.diagonal(covariance, axis1=1, axis2=2) / 2

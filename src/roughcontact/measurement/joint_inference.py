@@ -75,6 +75,16 @@ class JointInference:
     posterior : Posterior
         Weighted draws of the logarithms of rms height and roll-off wavelength, the Hurst exponent, and the logarithms
         of band and modulus.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> p = np.array([7e6, 15e6, 30e6, 65e6, 140e6])
+    >>> data = rc.JointStiffness(p, 1.9e7 * p**0.88, errors=0.05)
+    >>> found = rc.infer_joint(data, modulus=115e9, modulus_error=0.02, area=2.5e-6, branch="loading")
+    >>> found.fits, [each.name for each in found.parameters if each.informed]
+    (True, ['rms', 'rolloff'])
     """
 
     exponent: float
@@ -118,6 +128,17 @@ class JointInference:
         ------
         ValueError
             If the level is not between 0 and 1.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import roughcontact as rc
+        >>> p = np.array([7e6, 15e6, 30e6, 65e6, 140e6])
+        >>> data = rc.JointStiffness(p, 1.9e7 * p**0.88, errors=0.05)
+        >>> found = rc.infer_joint(data, modulus=115e9, modulus_error=0.02, area=2.5e-6, branch="loading")
+        >>> low, high = found.interval(0.9)
+        >>> low < found.effective_height < high
+        True
         """
         require(0 < level < 1, f"level must lie between 0 and 1, not {level:g}", place="level")
         if not self.fits:
@@ -140,6 +161,17 @@ class JointInference:
         -------
         low, median, high : array, shape (n,)
             Interfacial stiffness per area [Pa/m] of another joint of the posterior.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import roughcontact as rc
+        >>> p = np.array([7e6, 15e6, 30e6, 65e6, 140e6])
+        >>> data = rc.JointStiffness(p, 1.9e7 * p**0.88, errors=0.05)
+        >>> found = rc.infer_joint(data, modulus=115e9, modulus_error=0.02, area=2.5e-6, branch="loading")
+        >>> low, median, high = found.predicted(30e6)
+        >>> bool(low[0] < median[0] < high[0])
+        True
         """
         p = np.log(np.atleast_1d(pressures).astype(np.float64))
         rng, points = self._drawn()
@@ -169,6 +201,17 @@ class JointInference:
         -------
         low, median, high : array, shape (n,)
             Closure since the first of these pressures [m] of another joint of the posterior.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import roughcontact as rc
+        >>> p = np.array([7e6, 15e6, 30e6, 65e6, 140e6])
+        >>> data = rc.JointClosures(p, 4e-7 * (p / 1e6) ** 0.12, resolution=5e-9)
+        >>> found = rc.infer_joint(data, modulus=115e9, modulus_error=0.02, area=2.5e-6, branch="loading")
+        >>> low, median, high = found.predicted_closures(p[1:])
+        >>> bool((low < high).all())
+        True
         """
         data = JointClosures(pressures, np.zeros(np.shape(pressures)), resolution=np.array(1.0))
         rng, points = self._drawn()
@@ -191,6 +234,16 @@ class JointInference:
         Returns
         -------
         float
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import roughcontact as rc
+        >>> p = np.array([7e6, 15e6, 30e6, 65e6, 140e6])
+        >>> data = rc.JointStiffness(p, 1.9e7 * p**0.88, errors=0.05)
+        >>> found = rc.infer_joint(data, modulus=115e9, modulus_error=0.02, area=2.5e-6, branch="loading")
+        >>> f"{found.share_below(found.effective_height):.1f}"
+        '0.5'
         """
         rms, rolloff = self.posterior.points[:, :2].T
         below = self.exponent * rms + (1 - self.exponent) * rolloff < np.log(height)

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 import scipy.special
 
 from roughcontact.measurement.importance import Posterior, Prior
@@ -45,11 +46,15 @@ class JointModel:
         rms, rolloff, _, _, modulus = points.T
         return np.asarray(log_pressures + (rolloff - modulus - rms)[:, None])
 
-    def inside(self, points: Array, log_pressures: Array) -> Array:
+    def inside(self, points: Array, log_pressures: Array) -> npt.NDArray[np.bool_]:
         """Return where all pressures are within those of the emulator, shape (m,)."""
+        return self.margin(points, log_pressures) >= 0
+
+    def margin(self, points: Array, log_pressures: Array) -> Array:
+        """Return the distance of the pressures from the ends of the emulator in ln p, negative beyond, shape (m,)."""
         place = self.place(points, log_pressures)
         low, high = self.emulator.nodes[0], self.emulator.nodes[-1]
-        return np.asarray(((place >= low) & (place <= high)).all(axis=1))
+        return np.asarray(np.minimum(place.min(axis=1) - low, high - place.max(axis=1)))
 
     def stiffness(self, points: Array, log_pressures: Array) -> tuple[Array, Array]:
         """Return mean and covariance of ln(K/A0) over joints, shapes (m, n) and (m, n, n), discrepancy included."""

@@ -33,6 +33,18 @@ class JointPlan:
         Numbers of joints that are measured.
     width : array, shape (a, s)
         Standard deviation of the logarithm of the effective height.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> topography = rc.JointTopography(rms=1.2e-6, rms_error=0.5, rolloff=1e-4, rolloff_error=0.3)
+    >>> plan = rc.plan_joint(
+    ...     np.geomspace(7e6, 140e6, 5), errors=0.05, gain=0.03, modulus=115e9, modulus_error=0.02,
+    ...     areas=np.array([1e-6, 2e-6]), profile=topography,
+    ... )
+    >>> bool((np.diff(plan.width) < 0).all())
+    True
     """
 
     areas: Array
@@ -52,6 +64,18 @@ class JointPlan:
         -------
         tuple of float and int, or None
             Area of each specimen [m^2] and their number; None if none of the plan reaches it.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> import roughcontact as rc
+        >>> topography = rc.JointTopography(rms=1.2e-6, rms_error=0.5, rolloff=1e-4, rolloff_error=0.3)
+        >>> plan = rc.plan_joint(
+        ...     np.geomspace(7e6, 140e6, 5), errors=0.05, gain=0.03, modulus=115e9, modulus_error=0.02,
+        ...     areas=np.array([1e-6, 2e-6]), profile=topography,
+        ... )
+        >>> plan.reaching(0.01) is None
+        True
         """
         total = np.where(self.width <= width, self.areas[:, None] * self.specimens, np.inf)
         if np.isinf(total).all():
@@ -112,7 +136,7 @@ def plan_joint(
     >>> topography = rc.JointTopography(rms=1.2e-6, rms_error=0.5, rolloff=1e-4, rolloff_error=0.3)
     >>> plan = rc.plan_joint(
     ...     np.geomspace(7e6, 140e6, 5), errors=0.05, gain=0.03, modulus=115e9, modulus_error=0.02,
-    ...     areas=np.array([1e-6, 4e-6]), profile=topography,
+    ...     areas=np.array([1e-6, 2e-6]), profile=topography,
     ... )
     >>> plan.width.shape
     (2, 5)
@@ -146,10 +170,10 @@ def fisher_width(
     at = data.log_pressures
     if not model.inside(point[None], at).all():
         place = np.exp(model.place(point[None], at))
-        ends = np.exp(model.emulator.nodes[[0, -1]])
+        low, high = model.emulator.nodes[[0, -1]]
         raise InputError(
-            f"p l/(E* h) is {place.min():.2g} to {place.max():.2g}, and the emulator holds {ends[0]:.2g} to "
-            f"{ends[1]:.2g}",
+            f"p l/(E* h) is {place.min():.2g} to {place.max():.2g}, and the emulator holds {np.exp(low):.2g} to "
+            f"{np.exp(high):.2g}",
             "leave out the smallest or the largest pressures",
             "pressures",
         )
