@@ -40,7 +40,7 @@ def infer_joint(
 
     The stiffness of a large joint depends on its rms height h and its roll-off wavelength l only through an effective
     height ``h^a l^(1 - a)``, where a is the exponent of the stiffness, about 0.9. This height is inferred. About Hurst
-    exponent, h and l separately the stiffness holds little information: `JointInference.parameters` states how much.
+    exponent, h and l separately the stiffness holds little information: ``JointInference.parameters`` states how much.
 
     The model: an elastic joint whose faces together are Gaussian, with waves from l down to l/4 to l/8, as computed
     ensembles have them, and a discrepancy of 5 %.

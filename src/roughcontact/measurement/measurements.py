@@ -117,7 +117,7 @@ class Measurements:
 
         In each bin of a tenth of a decade, ln C is averaged over places with the weights of random effects, from the
         number of waves and the scatter between places (DerSimonian and Laird). The noise is subtracted and the stated
-        resolution corrected; its relative error of 10 % is part of `CombinedSpectrum.log_error`. A measurement more
+        resolution corrected; its relative error of 10 % is part of ``CombinedSpectrum.log_error``. A measurement more
         than 3.5 standard deviations from the median in three neighbouring bins is left out of the mean and named.
         If there are profiles, the spectrum is C1D, and maps count by their rows.
 
