@@ -65,7 +65,7 @@ QUESTIONS = {
     "hardness": "concepts/plastic",
     "unload and reload": "how-to/plastic-loops",
     "prepare a surface": "how-to/preparing",
-    "shift of two maps before and after": "how-to/preparing",
+    "shift of two faces": "how-to/preparing",
     "many maps of one surface": "how-to/many-measurements",
     "what stiffness shows of a surface": "concepts/what-stiffness-shows",
     "how spikes are recognised": "concepts/spikes",
