@@ -2,7 +2,7 @@
 
     python benchmarks/joint_designs.py
     roughcontact study run examples/joint/design.toml --out design     # resumes; 2.5 hours of one core
-    python benchmarks/joint_table.py design validation hardness        # the data file of the package
+    python benchmarks/joint_table.py --take FOLDER                     # of the stores: the table of the package
 
 Points of a Sobol sequence over Hurst exponent, side and band, those with six cells a shortest wave on 512 x 512 cells;
 each has surfaces of its own.

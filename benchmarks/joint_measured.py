@@ -50,7 +50,8 @@ def main() -> None:
             exponent = np.polyfit(np.log(middle[seen]), np.log(stiffness[seen]), 1)[0]
             found = rc.infer_joint(data, modulus=modulus, modulus_error=ERROR, area=AREA, branch=branch)
             print(
-                f"{path.name}, {branch}: secants K ~ p^{exponent:.2f}, the model's {found.exponent:.2f}: {found!r}"
+                f"{path.name}, {branch}: secants K ~ p^{exponent:.2f}, the model's {found.exponent:.2f}, "
+                f"p = {found.p_value:.3f}: {found!r}"
             )
 
 

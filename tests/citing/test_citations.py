@@ -202,6 +202,23 @@ def test_what_crosses_the_gap():
     assert keys(from_plain(heard)) == METHOD | {"Love1929", "Westergaard1939", "Kendall1971"}
 
 
+def test_what_was_measured(tmp_path):
+    file = tmp_path / "joint.csv"
+    file.write_text("pressure [MPa], stiffness [N/um/mm^2]\n15, 39\n30, 72\n65, 143\n", encoding="utf-8")
+    source = {"file": str(file), "errors": "5%"}
+    job = {"job": "infer", "source": source, "bodies": {"modulus": "115GPa"}}
+    job |= {"joint": {"area": "2.5mm^2", "branch": "loading"}}
+    table = rc.read_joint_table(file)
+    data = rc.JointStiffness(table.pressures, table.values, 0.05)
+    found = rc.infer_joint(data, modulus=115e9, modulus_error=0.02, area=2.5e-6, branch="loading")
+    inferred = {"Sellentin2016", "Cornuet2012"}
+    assert inferred <= keys(found)
+    assert inferred <= keys(from_plain(job))
+    assert "Hintermueller2002" not in keys(found)  # nothing was pressed
+    before = rc.self_affine(rc.Grid((64, 64), 1e-6), 0.8, 1e-6, 1, short_cutoff=6e-6)
+    assert "Padfield2012" in keys(rc.shift_between(before, before))
+
+
 def test_theories_by_their_law_and_in_a_job_are_the_same():
     for name, law in laws():
         of_job = keys(
@@ -267,6 +284,9 @@ def test_every_entry_is_cited_by_something():
             "Jaeger1998",
             "Delbourgo1985",
             "Iwan1966",
+            "Padfield2012",
+            "Sellentin2016",
+            "Cornuet2012",
         ),
     }
     assert {each.key for each in references()} == cited | elsewhere

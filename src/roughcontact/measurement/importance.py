@@ -127,7 +127,10 @@ def posterior(prior: Prior, log_likelihood: Callable[[Array], Array], rng: np.ra
     sizes = [len(points)]
     target = _target(prior, log_likelihood, points)
     if not np.isfinite(target).any():
-        raise InputError("no parameters that are possible beforehand agree with the measurement")
+        raise InputError(
+            "no joint that is possible beforehand has been computed at these pressures",
+            "give larger errors of the topography, or other pressures",
+        )
     for _ in range(ROUNDS):
         weights = _tempered(target - _mixture(densities, sizes, points))
         mean = weights @ points

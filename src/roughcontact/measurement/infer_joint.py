@@ -18,10 +18,8 @@ from roughcontact.validation import Array, RngLike, as_generator, numeric, posit
 
 __all__ = ["infer_joint"]
 
-AT_EDGE, EDGE = (
-    0.05,
-    0.05,
-)  # probability within this distance in ln p from the ends of the emulator, which is refused
+EDGE = 0.05  # in ln p: nearer to an end of the emulator, a joint counts as beyond it
+AT_EDGE = 0.05  # probability of such joints that is refused
 _UNITS = {"rms": "m", "rolloff": "m", "hurst": "", "band": "", "modulus": "Pa"}
 
 

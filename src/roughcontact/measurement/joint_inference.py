@@ -245,15 +245,12 @@ class JointInference:
         >>> f"{found.share_below(found.effective_height):.1f}"
         '0.5'
         """
-        rms, rolloff = self.posterior.points[:, :2].T
-        below = self.exponent * rms + (1 - self.exponent) * rolloff < np.log(height)
-        return float(self.posterior.weights[below].sum())
+        return float(self.posterior.weights[self._log_heights < np.log(height)].sum())
 
     @property
     def width(self) -> float:
         """Standard deviation of the logarithm of the effective height."""
-        rms, rolloff = self.posterior.points[:, :2].T
-        values, weights = self.exponent * rms + (1 - self.exponent) * rolloff, self.posterior.weights
+        values, weights = self._log_heights, self.posterior.weights
         return float(np.sqrt(weights @ (values - weights @ values) ** 2))
 
     def _drawn(self) -> tuple[np.random.Generator, Array]:
@@ -261,10 +258,14 @@ class JointInference:
         rng, weights = np.random.default_rng(0), self.posterior.weights
         return rng, self.posterior.points[rng.choice(len(weights), 4000, p=weights)]
 
-    def _heights(self, shares: Array | float) -> Array:
+    @property
+    def _log_heights(self) -> Array:
+        """Logarithm of the effective height [m] of each draw."""
         rms, rolloff = self.posterior.points[:, :2].T
-        values = self.exponent * rms + (1 - self.exponent) * rolloff
-        return np.exp(self.posterior.quantiles(values, np.asarray(shares)))
+        return np.asarray(self.exponent * rms + (1 - self.exponent) * rolloff)
+
+    def _heights(self, shares: Array | float) -> Array:
+        return np.exp(self.posterior.quantiles(self._log_heights, np.asarray(shares)))
 
     def __repr__(self) -> str:
         """Return the answer in one line."""

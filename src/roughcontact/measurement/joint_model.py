@@ -113,7 +113,8 @@ class JointModel:
         if prior is not None:
             points = prior.draw(rng.random((DRAWN, prior.mean.size)))
             points = points[self.inside(points, data.log_pressures)]
-            chances.append((self._beyond(data, points, contrasts[0]), "level"))
+            if len(points):
+                chances.append((self._beyond(data, points, contrasts[0]), "level"))
         chance, departs = min(chances)
         return min(1.0, len(chances) * chance), departs
 

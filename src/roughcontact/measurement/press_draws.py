@@ -12,6 +12,7 @@ import numpy as np
 import scipy.fft
 from scipy.stats import chi2
 
+from roughcontact.contact.convergence import ConvergenceError
 from roughcontact.contact.measures import StateMeasure, measured_at
 from roughcontact.contact.press import press
 from roughcontact.errors import InputError, about
@@ -135,6 +136,8 @@ def press_draws(
     ValueError
         If the spectrum is one of profiles or does not hold the scatter between places, or the size is too small or too
         large for its band.
+    ConvergenceError
+        If a contact missed the tolerance.
 
     Notes
     -----
@@ -182,6 +185,8 @@ def press_draws(
         for _ in range(PHASES if of == "mean" else 1):
             surface = synthesise(grid, density, random, amplitudes="gaussian")
             solution = press(surface, modulus, pressure=pressure)
+            if not solution.status.converged:
+                raise ConvergenceError(solution)
             numbers = {name: float(getattr(solution, name)) for name in NUMBERS}
             rows.append(numbers | measured_at(solution, measures, NUMBERS))
         found.append({name: float(np.mean([row[name] for row in rows])) for name in rows[0]})

@@ -105,6 +105,6 @@ def _print(found: JointInference) -> None:
     rows = []
     for each in found.parameters:
         cells = [written(value, each.unit) for value in (*each.prior, *each.posterior)]
-        told = f"{each.nats:.2f}" if each.informed else f"{each.nats:.2f}, no information"
-        rows.append([_NAMES.get(each.name, each.name), *cells, told])
+        gained = f"{each.nats:.2f}" if each.informed else f"{each.nats:.2f}, no information"
+        rows.append([_NAMES.get(each.name, each.name), *cells, gained])
     print_table([*header, "nats"], rows)
