@@ -38,7 +38,7 @@ _LINES = {
 
 @dataclass(frozen=True, eq=False)
 class JointTable:
-    """What was measured at a joint, in SI.
+    r"""What was measured at a joint, in SI.
 
     Attributes
     ----------
@@ -50,6 +50,14 @@ class JointTable:
         K/A0 [Pa/m], closure [m] or size of the reflection [-].
     given_errors : array, shape (d,), or None
         Standard errors, if the table has them: relative ones of a stiffness, otherwise in the unit of the values.
+
+    Examples
+    --------
+    >>> import roughcontact as rc
+    >>> with open("closure.csv", "w") as file:
+    ...     _ = file.write("pressure [MPa], closure [um]\n7, 1.000\n15, 1.279\n")
+    >>> rc.read_joint_table("closure.csv", "closure").values.tolist()
+    [1e-06, 1.279e-06]
     """
 
     quantity: str
