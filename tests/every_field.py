@@ -81,6 +81,7 @@ _TABLE = dict.fromkeys(("bolt_force", "head", "hole", "thickness"))
 _WET = {"leak": "0", "viscosity": "1mPa*s", "drop": "1bar"}
 _ECHO = {"quantity": "reflection", "frequency": "2MHz"}
 _FACES = {"rms": "1.2um", "rms_error": "10%", "rolloff": "100um", "rolloff_error": "30%", "hurst": "0.8"}
+_SOFT = {"hardness": "2GPa", "hardness_error": "10%"}
 _WAVE = {"shape": "wave", "radius": None, "amplitude": "1um", "wavelength": "0.1mm"}
 # What stands beside a field where it has a meaning; None where it takes the place of another.
 BESIDE = {
@@ -132,9 +133,10 @@ BESIDE = {
     "JointMeasurement.compliance_error": {"quantity": "closure", "compliance": "1e-14m/Pa"},
     "JointMeasurement.frequency": _ECHO | {"impedance": "46MPa*s/m"},
     "JointMeasurement.impedance": _ECHO,
+    **dict.fromkeys(("MeasuredJoint.hardness", "MeasuredJoint.hardness_error"), _SOFT),
     **{
         f"JointProfile.{name}": _FACES
-        for name in ("rms", "rms_error", "rolloff", "rolloff_error", "hurst", "hurst_error")
+        for name in ("rms", "rms_error", "rolloff", "rolloff_error", "hurst", "hurst_error", "plan")
     },
     "SmoothBody.slope": {"shape": "cone", "radius": None},
     "SmoothBody.amplitude": _WAVE,

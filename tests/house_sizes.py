@@ -130,11 +130,21 @@ def circles(graph: Mapping[str, Collection[str]]) -> list[set[str]]:
     return sorted((names for names in members.values() if len(names) > 1), key=len, reverse=True)
 
 
-def ways(n: int) -> dict[str, tuple[int, int]]:
-    """Return the changes of file and the calls of a press and of a curve, see benchmarks/path.py."""
+MACHINE_CODE = str(Path("kernels", "calls.py"))
+
+
+def ways(n: int) -> dict[str, tuple[float, float]]:
+    """Return the changes of file and the calls of a press and of a curve, see benchmarks/path.py.
+
+    Both are per call of machine code, whose number follows that of the solver's steps: other processors round
+    differently and take up to an eighth more of them.
+    """
     path = _script("path")
     traced = {name: path.traced(task) for name, task in path.tasks(n).items()}
-    return {name: (len(path.changes_of_file(files)), len(files)) for name, files in traced.items()}
+    return {
+        name: (len(path.changes_of_file(files)) / (count := files.count(MACHINE_CODE)), len(files) / count)
+        for name, files in traced.items()
+    }
 
 
 def _script(name: str) -> ModuleType:

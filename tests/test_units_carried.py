@@ -97,7 +97,7 @@ MORE = [
     (rc.JointClosures, {"pressures": _MEASURED["pressures"], "closures": np.arange(1.0, 6.0) * 1e-7,
                         "resolution": 1e-8, "compliance": 1e-16, "compliance_error": 1e-17}),
     (rc.JointTopography, {"rms": 1e-6, "rms_error": 0.1, "rolloff": 1e-4, "rolloff_error": 0.3}),
-    (rc.infer_joint, _OF_MEASURED),
+    (rc.infer_joint, _OF_MEASURED | {"hardness": 2e9, "hardness_error": 0.1}),
     *((call, {"pressures": [1e7, 2e7]}) for call in (INFERRED.predicted, INFERRED.predicted_closures)),
     (rc.plan_joint, {"pressures": np.geomspace(7e6, 1.4e8, 5), "errors": 0.05, "gain": 0.03, "modulus": 1.15e11,
                      "modulus_error": 0.02, "areas": np.array([1e-6, 2e-6]),

@@ -250,6 +250,7 @@ def table(ensemble: xarray.Dataset) -> dict[str, list[tuple[float, ...]]]:
             )
             off = np.hypot(off, HALF * change)
         single = one["dimensionless_stiffness"]
+        scatter = law(one["dimensionless_force"], single, one["inside"])[0].std("sample", ddof=1)
         parts = (single / single.mean("sample")).quantile(RANGE, "sample")
         force = one["dimensionless_force"]
         found = []
@@ -269,6 +270,7 @@ def table(ensemble: xarray.Dataset) -> dict[str, list[tuple[float, ...]]]:
                     round(correlation, 2),
                     round(float(off.isel(hurst=place)), 4),
                     *(round(float(each_), 3) for each_ in (*ends[0], *ends[1])),
+                    round(float(scatter.isel(hurst=place)), 4),
                 )
             )
         rows[cut] = found

@@ -27,7 +27,7 @@ MODULE = '''"""The law of rough squares as a table, for each cut and Hurst expon
 
 H; the highest F/(E* h L); alpha and its standard error; kappa and its relative one; the correlation of both errors; the
 largest misfit of the power law; the 5 and 95 % quantiles of single surfaces over the mean, at the first and the last
-load.
+load; the standard deviation of the exponents of single surfaces.
 Written by `python reproduction/benchmarks/law_formula.py`.
 """
 
@@ -39,7 +39,7 @@ __all__ = ["COLUMNS", "TABLES"]
 
 COLUMNS = (
     *("hurst", "highest", "exponent", "exponent_error", "level", "level_error", "correlation", "misfit"),
-    *("low_first", "high_first", "low_last", "high_last"),
+    *("low_first", "high_first", "low_last", "high_last", "scatter"),
 )
 TABLES: Mapping[str, tuple[tuple[float, ...], ...]] = {{
 {tables}}}

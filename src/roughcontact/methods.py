@@ -88,6 +88,7 @@ if TYPE_CHECKING:
     from roughcontact.measurement.inference_dataset import (
         inference_dataset as inference_dataset,
         inference_record as inference_record,
+        plan_dataset as plan_dataset,
     )
     from roughcontact.plot.answers import (
         plot_curve as plot_curve,
@@ -171,7 +172,7 @@ else:
         "joints.joint_dataset": "joint_dataset joint_record",
         "joints.pressure_levels": "shear_history",
         "joints.reduced_laws": "iwan_distribution jenkins_elements",
-        "measurement.inference_dataset": "inference_dataset inference_record",
+        "measurement.inference_dataset": "inference_dataset inference_record plan_dataset",
         "plot.answers": "plot_curve plot_flow plot_flux plot_loop plot_solution plot_state plot_surface",
         "plot.creep_plot": "creep_curve",
         "plot.detachment_plot": "detachment_force",

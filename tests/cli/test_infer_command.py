@@ -144,3 +144,39 @@ def test_the_answer_is_kept_repeated_and_done_by_the_printed_python(run):
     Path("joint.csv").write_text(Path("joint.csv").read_text() + "200, 400, 5\n")
     assert "is not the file that the recipe was written for" in run("run kept").stderr
     assert read_job(Path("kept/inference.json")).joint.branch == "loading"
+
+
+def test_a_plan_is_that_of_the_library_and_needs_pressures_only(run):
+    Path("loads.csv").write_text("pressure [MPa]\n" + "".join(f"{each:g}\n" for each in P))
+    line = f"infer loads.csv {LINE.removeprefix('infer joint.csv')} {FACES} --errors 5% --gain 3%"
+    plan = rc.plan_joint(
+        1e6 * P,
+        errors=0.05,
+        gain=0.03,
+        modulus=115e9,
+        modulus_error=0.02,
+        areas=2e-4 * np.array([1, 2, 4, 8]),
+        profile=rc.JointTopography(1.15e-6, 0.1, 1e-4, 0.3),
+    )
+    told = record(run(f"{line} --plan 6% --json"))
+    assert told["width"] == pytest.approx(plan.width, rel=1e-9)
+    assert told["width_without"] == pytest.approx(plan.without, rel=1e-9)
+    area, number = plan.reaching(0.06)
+    assert told["reached"] == pytest.approx({"area": area, "number": number})
+    printed = run(f"{line} --plan 6% --out kept").stdout
+    assert "1 joint of 200 mm" in printed
+    rows = pd.read_csv("kept/plan.csv", comment="#")
+    assert rows.shape == (20, 3)
+    assert rows.filter(like="width").to_numpy().reshape(4, 5) == pytest.approx(plan.width, rel=1e-9)
+    assert run("run kept").exit_code == 0
+    assert "none of these" in run(f"{line} --plan 1%").stdout
+    assert record(run(f"{line} --plan 1% --json"))["reached"] is None
+
+
+def test_the_hardness_is_a_parameter_and_explains_what_does_not_fit(run):
+    told = record(run(f"{LINE} --hardness 2GPa --hardness-error 10% --json"))
+    assert told["parameters"][-1]["name"] == "hardness"
+    soft = FACES.replace("1.15um", "0.8um").replace("--rms-error 10%", "--rms-error 5%")
+    told = record(run(f"{LINE} {soft} --json"))
+    assert not told["fits"]
+    assert {each["name"] for each in told["explanations"]} == {"carrying", "hardness"}

@@ -114,7 +114,7 @@ def test_errors_widen_the_interval_and_the_modulus_enters(data, found):
     for error in (0.02, 0.8):
         inferred = rc.infer_joint(data, **(GIVEN | {"modulus_error": error}), profile=TOPOGRAPHY)
         widths.append(inferred.width)
-        prior = prior_of(MODULUS, error, AREA, TOPOGRAPHY)
+        prior = prior_of((MODULUS, error), AREA, TOPOGRAPHY)
         bounds.append(fisher_width(JointModel(joint_emulator(), AREA), data, point, prior))
     # A width of 3000 effective draws scatters by 1.3 %, a ratio by 1.9 %: four of these. The bound is for small errors;
     # so large a one is also limited by the curvature of ln K, which shows p l/(E* h).
@@ -268,11 +268,25 @@ class TestPlan:
         assert self.PLAN.width[row, column] <= wanted
         assert self.PLAN.reaching(self.PLAN.width.min() / 2) is None
 
+    def test_without_a_load_it_is_that_of_the_others(self):
+        others = rc.plan_joint(
+            self.PLAN.pressures[1:],
+            errors=0.05,
+            gain=0.03,
+            modulus=MODULUS,
+            modulus_error=0.02,
+            areas=self.PLAN.areas,
+            specimens=(int(self.PLAN.specimens[0]),),
+            profile=TOPOGRAPHY,
+        )
+        assert self.PLAN.without[0] == pytest.approx(others.width[0, 0], rel=1e-12)
+        assert (self.PLAN.without >= self.PLAN.width[0, 0]).all()
+
     def test_it_is_what_the_posterior_gives(self):
         """Fisher's bound with the prior: the posterior of a nearly linear model has that width, to 15 %."""
         rng = np.random.default_rng(5)
         point = np.array([*np.log([RMS, ROLLOFF]), 0.8, np.log(6), np.log(MODULUS)])
-        prior = prior_of(MODULUS, 0.02, AREA, TOPOGRAPHY)
+        prior = prior_of((MODULUS, 0.02), AREA, TOPOGRAPHY)
         widths = []
         for _ in range(10):
             data = drawn(rng)

@@ -56,6 +56,21 @@ ROWS = [
         "give the area of the whole joint, or press the measured map itself: rc.loading_curve",
         lambda: inferred(profile=FACES),
     ),
+    row(
+        lambda: inferred(hardness=2e9),
+        "give both, such as hardness=2e9, hardness_error=0.1",
+        lambda: inferred(hardness=2e9, hardness_error=0.1),
+    ),
+    row(
+        lambda: inferred(branch="unloading", hardness=2e9, hardness_error=0.1),
+        "faces flow on first loading only: leave out the hardness",
+        lambda: inferred(branch="unloading"),
+    ),
+    row(
+        lambda: inferred(profile=FACES, hardness=2e8, hardness_error=0.1),
+        "leave out the largest pressures, or press a map with this hardness: rc.loading_curve",
+        lambda: inferred(measured(P[:2], K[:2]), profile=FACES, hardness=2e9, hardness_error=0.1),
+    ),
 ]
 TABLE = "pressure [MPa], stiffness [N/um/mm^2]\n7, 20\n15, 39\n"
 LIKE = "write such a line above the columns, or give columns='pressure [MPa], stiffness [N/um/mm^2]'"
@@ -97,7 +112,7 @@ OF_TABLES = [
     ),
     row(
         lambda folder: read(folder, TABLE, "depth"),
-        "must be one of stiffness, closure, reflection, not 'depth'",
+        "must be one of stiffness, closure, reflection, loads, not 'depth'",
         lambda folder: read(folder, TABLE, "stiffness"),
     ),
     row(
@@ -113,6 +128,7 @@ OF_TABLES = [
         ),
     ),
 ]
+TOPOGRAPHY = "--rms 1um --rms-error 10% --rolloff 100um --rolloff-error 30%"
 LINE = "roughcontact infer joint.csv --area '2cm^2' --branch loading"
 COMMANDS = """
 $ LINE --modulus 115GPa
@@ -130,6 +146,22 @@ $ roughcontact infer joint.csv --area '2cm^2' --modulus 115GPa --errors 5%
 $ LINE --modulus 115GPa --errors 5% --resolution 10nm
 ! --resolution has no meaning for a stiffness: leave it out, or choose another --quantity
 > LINE --modulus 115GPa --errors 5%
+
+$ LINE --modulus 115GPa --errors 5% --hardness 2GPa
+! --hardness is given without --hardness-error; give --hardness-error, such as 10%
+> LINE --modulus 115GPa --errors 5% --hardness 2GPa --hardness-error 10%
+
+$ LINE --modulus 115GPa --errors 5% --plan 8%
+! --plan needs --rms, which is not given: give --rms too
+> LINE --modulus 115GPa --errors 5% --plan 8% FACES
+
+$ LINE --modulus 115GPa --quantity closure --resolution 10nm --plan 8% FACES
+! a plan is made for stiffnesses; leave out the --quantity, or the --plan
+> LINE --modulus 115GPa --errors 5% --plan 8% FACES
+
+$ LINE --modulus 115GPa --errors 5% --plan 8% --hardness 2GPa --hardness-error 10% FACES
+! a plan is made for elastic joints; leave out the --hardness, or the --plan
+> LINE --modulus 115GPa --errors 5% --plan 8% FACES
 
 $ LINE --modulus 115GPa --quantity closure --resolution 10nm
 ! it has no column of closure, but one of stiffness; give --quantity 'stiffness'
@@ -161,7 +193,10 @@ def test_what_a_table_lacks_is_read_when_the_message_is_followed(refusal, tmp_pa
     follow(refusal, tmp_path)
 
 
-@pytest.mark.parametrize("refusal", commands(COMMANDS.replace("LINE", LINE).replace("roughcontact ", "")))
+@pytest.mark.parametrize(
+    "refusal",
+    commands(COMMANDS.replace("LINE", LINE).replace("FACES", TOPOGRAPHY).replace("roughcontact ", "")),
+)
 def test_a_command_that_is_refused_runs_when_the_message_is_followed(refusal, command, folder):
     rows = "".join(f"{p / 1e6:g}, {k / 1e12:g}\n" for p, k in zip(P, K, strict=True))
     (folder / "joint.csv").write_text(f"pressure [MPa], stiffness [N/um/mm^2]\n{rows}")

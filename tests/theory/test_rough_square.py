@@ -93,6 +93,17 @@ def test_the_range_of_single_surfaces_is_that_of_the_table_at_the_ends_of_the_wi
             assert low < mean < high
 
 
+@every_cut
+def test_squares_needed_reach_the_wanted_error(cut):
+    """Exponents of n squares scatter by sd/sqrt(n), and H by that over dalpha/dH, here by differences."""
+    for row in rows(cut)[1:-1]:
+        hurst = row["hurst"]
+        needed = rough_square.squares_needed(hurst, 0.1, cut=cut)
+        slope = np.subtract(*(rough_square.exponent(hurst + step, cut=cut) for step in (1e-5, -1e-5))) / 2e-5
+        assert row["scatter"] / np.sqrt(needed) == pytest.approx(0.1 * abs(slope), rel=1e-3)
+        assert rough_square.squares_needed(hurst, 0.05, cut=cut) == pytest.approx(4 * needed)
+
+
 def test_the_range_of_single_surfaces_holds_for_one_that_is_computed():
     """Nine in ten lie inside; of these three, with phases that the ensemble does not hold, all do."""
     grid = rc.Grid((64, 64), 1 / 64)

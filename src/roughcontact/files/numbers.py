@@ -35,6 +35,7 @@ _COMMENT = re.compile(r"(?:#(?!n/?a\b|num\b)|%|//|!)\s*", re.IGNORECASE)  # spre
 # Above a table: a name that does not begin like a number, with a value; or the words that end a header.
 _STATEMENT = re.compile(r"(?!(?:nan|inf)\b)[^\W\d_][^=:;\t]*[=:].*|start of data\W*", re.IGNORECASE)
 _WORDS = re.compile(r"(?:(?!(?:nan|inf)\b)[^\W\d_]+\s+){2}.*", re.IGNORECASE)  # among such lines
+_NAME = re.compile(r"[^\W\d_][^\[\]]*\[[^\]]*\]")  # above a single column: pressure [MPa]
 # Line ends of other systems; signs for a minus, a dash and a colon in typeset and in Japanese texts.
 _SIGNS = {"\r\n": "\n", "\r": "\n", "\N{MINUS SIGN}": "-", "\N{EN DASH}": "-", "\N{FULLWIDTH COLON}": ":"}
 _CORNER = re.compile(
@@ -224,7 +225,7 @@ def _numbers(rows: list[tuple[int, str]]) -> Table:
     if all(len(row) > 1 and row[-1] == EMPTY for row in fields):
         fields = [row[:-1] for row in fields]
     names: tuple[str, ...] = ()
-    if _are_names(fields[:2]):
+    if _are_names(fields[:2]) or (len(fields[-1]) == 1 and _NAME.fullmatch(rows[0][1].strip())):
         names = (rows[0][1].strip(),)
         fields, where = fields[1:], where[1:]
     put_points(fields, where)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Literal
 
 import numpy as np
@@ -10,9 +11,10 @@ from roughcontact.errors import InputError, about
 from roughcontact.labels.note import Note, Rank, in_order
 from roughcontact.measurement.importance import Posterior, Prior, posterior
 from roughcontact.measurement.joint_data import JointData
-from roughcontact.measurement.joint_emulator import joint_emulator
-from roughcontact.measurement.joint_inference import SHARES, UNLIKELY, InferredParameter, JointInference
-from roughcontact.measurement.joint_model import DISCREPANCY, DRAWN, JointModel
+from roughcontact.measurement.joint_emulator import SOFTEST, joint_emulator
+from roughcontact.measurement.joint_explanations import JointExplanation, explanations
+from roughcontact.measurement.joint_inference import SHARES, InferredParameter, JointInference
+from roughcontact.measurement.joint_model import DISCREPANCY, DRAWN, UNLIKELY, JointModel
 from roughcontact.measurement.joint_topography import PARAMETERS, JointTopography, prior_of
 from roughcontact.validation import Array, RngLike, as_generator, numeric, positive, shown
 
@@ -20,10 +22,10 @@ __all__ = ["infer_joint"]
 
 EDGE = 0.05  # in ln p: nearer to an end of the emulator, a joint counts as beyond it
 AT_EDGE = 0.05  # probability of such joints that is refused
-_UNITS = {"rms": "m", "rolloff": "m", "hurst": "", "band": "", "modulus": "Pa"}
+_UNITS = {"rms": "m", "rolloff": "m", "hurst": "", "band": "", "modulus": "Pa", "hardness": "Pa"}
 
 
-@numeric(modulus="Pa", area="m^2")
+@numeric(modulus="Pa", area="m^2", hardness="Pa")
 def infer_joint(
     data: JointData,
     *,
@@ -32,6 +34,8 @@ def infer_joint(
     area: float,
     branch: Literal["loading", "unloading"],
     profile: JointTopography | None = None,
+    hardness: float | None = None,
+    hardness_error: float | None = None,
     rng: RngLike = 0,
 ) -> JointInference:
     """Return the effective height of a joint, inferred from its stiffness.
@@ -40,8 +44,8 @@ def infer_joint(
     height ``h^a l^(1 - a)``, where a is the exponent of the stiffness, about 0.9. This height is inferred. About Hurst
     exponent, h and l separately the stiffness holds little information: ``JointInference.parameters`` states how much.
 
-    The model: an elastic joint whose faces together are Gaussian, with waves from l down to l/4 to l/8, as computed
-    ensembles have them, and a discrepancy of 5 %.
+    The model: a joint whose faces together are Gaussian, with waves from l down to l/4 to l/8, as computed ensembles
+    have them, and a discrepancy of 5 %. It is elastic, or on first loading flows at a given hardness.
 
     Parameters
     ----------
@@ -54,7 +58,13 @@ def infer_joint(
     branch : {"loading", "unloading"}
         The branch that was measured. On unloading the height is that of the faces as they were flattened.
     profile : JointTopography, optional
-        The measured topography. The answer then states whether this is the joint of that topography.
+        The measured topography. The answer then states whether this is the joint of that topography, and if not,
+        whether a waviness or a hardness would make it so.
+    hardness : float, optional
+        Hardness of the softer face [Pa], for a first loading; by default the joint is elastic. At most half of it may
+        flow.
+    hardness_error : float, optional
+        Relative standard deviation of the hardness.
     rng : int or Generator
         Source of the draws of the posterior.
 
@@ -66,7 +76,7 @@ def infer_joint(
     ------
     ValueError
         If the branch is not named, a value is not positive, the joint is smaller than 64 squares of the roll-off
-        wavelength, or the pressures are outside the emulator.
+        wavelength, the pressures are outside the emulator, or a hardness is given without error or on unloading.
 
     Examples
     --------
@@ -87,9 +97,11 @@ def infer_joint(
         )
     for name, value in (("modulus", modulus), ("modulus_error", modulus_error), ("area", area)):
         positive(value, name)
-    prior = prior_of(modulus, modulus_error, area, profile)
+    soft = _hardness(hardness, hardness_error, branch)
+    prior = prior_of((modulus, modulus_error), area, profile, soft)
     model = JointModel(joint_emulator(), area)
-    before = prior.draw(np.random.default_rng(0).random((DRAWN, len(PARAMETERS))))
+    size = prior.mean.size
+    before = prior.draw(np.random.default_rng(0).random((DRAWN, size)))
     _require_inside(model, before, np.full(DRAWN, 1 / DRAWN), data.log_pressures, 1 - 1 / DRAWN)
     found = posterior(prior, lambda points: model.log_likelihood(points, data), as_generator(rng))
     exponent = float(found.weights @ model.exponent(found.points, float(data.log_pressures.mean())))
@@ -97,47 +109,82 @@ def infer_joint(
     fits = not chance < UNLIKELY
     if fits:  # a curve of another shape may end there, too
         _require_inside(model, found.points, found.weights, data.log_pressures, AT_EDGE)
-    notes = [Note(Rank.LIMITED, f"elastic, Gaussian faces; a discrepancy of {DISCREPANCY:.0%} is assumed")]
+    reasons = (
+        ()
+        if fits or profile is None
+        else explanations(model, data, before, soft is None and branch == "loading")
+    )
+    faces = "Gaussian faces that flow" if soft else "elastic, Gaussian faces"
+    notes = [Note(Rank.LIMITED, f"{faces}; a discrepancy of {DISCREPANCY:.0%} is assumed")]
     if branch == "unloading":
         notes.append(
             Note(Rank.LIMITED, "on unloading the height is that of the faces as they were flattened")
         )
     if not fits:
-        notes.append(Note(Rank.WRONG, _why_not(departs, profile)))
+        notes.append(Note(Rank.WRONG, _why_not(departs, profile, reasons)))
     parameters = _parameters(prior, found) if fits and data.measured.size > 1 else ()
-    return JointInference(exponent, chance, departs, parameters, data, in_order(notes), model, found)
+    return JointInference(exponent, chance, departs, parameters, reasons, data, in_order(notes), model, found)
 
 
-def _why_not(departs: str, profile: JointTopography | None) -> str:
-    if departs == "level" and profile is not None:
-        return (
-            "not the joint of this topography: its stiffness departs from that of all such joints. Waviness beyond the "
-            "measured waves makes a joint softer"
+def _hardness(hardness: float | None, error: float | None, branch: str) -> tuple[float, float] | None:
+    """Return hardness and error, if given."""
+    if hardness is None and error is None:
+        return None
+    if hardness is None or error is None:
+        raise InputError(
+            "hardness and hardness_error belong together",
+            "give both, such as hardness=2e9, hardness_error=0.1",
+            "hardness" if hardness is None else "hardness_error",
         )
-    return (
-        f"not this model: the {departs} of the stiffness departs from that of all joints. Bodies or a machine in "
-        "series, flow, waviness of few waves or mated faces change it"
-    )
+    if branch != "loading":
+        raise InputError("faces flow on first loading only", "leave out the hardness", "hardness")
+    return float(positive(hardness, "hardness")), float(positive(error, "hardness_error"))
+
+
+def _why_not(departs: str, profile: JointTopography | None, reasons: tuple[JointExplanation, ...]) -> str:
+    """Return what the measurement contradicts, and what would explain it."""
+    found = ", or with ".join(map(str, reasons))
+    if departs == "level" and profile is not None:
+        what = "not the joint of this topography: its stiffness departs from that of all such joints"
+        return (
+            f"{what}. It would be with {found}"
+            if found
+            else f"{what}, and no waviness or hardness explains it"
+        )
+    what = f"not this model: the {departs} of the stiffness departs from that of all joints"
+    if found:
+        return f"{what}. It would fit with {found}"
+    return f"{what}. Bodies or a machine in series, flow, waviness of few waves or mated faces change it"
 
 
 def _require_inside(model: JointModel, points: Array, weights: Array, log_p: Array, most: float) -> None:
     """Refuse pressures beyond the emulator, or nearly so, for more than a share of the draws."""
     if float(weights @ (model.margin(points, log_p) < EDGE)) > most:
-        low, high = model.emulator.nodes[[0, -1]]
+        low, high = np.exp(model.emulator.nodes[[0, -1]])
         first, last = np.exp(np.median(model.place(points, log_p), axis=0)[[0, -1]])
+        if points.shape[1] > 5 and low <= first and last <= high:
+            largest, hardness = math.exp(log_p[-1]), float(np.exp(np.median(points[:, 5])))
+            raise InputError(
+                f"joints that flow are computed for a hardness from {SOFTEST:g} E* h/l on and up to pressures of half "
+                f"of it, and such a joint has a hardness of {hardness / largest * last:.2g} E* h/l, "
+                f"{hardness / largest:.2g} times the largest pressure",
+                "leave out the largest pressures, or press a map with this hardness: rc.loading_curve",
+                "pressures",
+            )
         raise InputError(
-            f"the pressures lie beyond the emulator, which holds p l/(E* h) from {np.exp(low):.2g} to "
-            f"{np.exp(high):.2g}, and such a joint has about {first:.2g} to {last:.2g}",
+            f"the pressures lie beyond the emulator, which holds p l/(E* h) from {low:.2g} to {high:.2g}, and such a "
+            f"joint has about {first:.2g} to {last:.2g}",
             "leave out the smallest or the largest pressures, or press a map: rc.loading_curve",
             "pressures",
         )
 
 
 def _parameters(prior: Prior, found: Posterior) -> tuple[InferredParameter, ...]:
-    before = prior.draw(np.tile(np.array(SHARES)[:, None], (1, len(PARAMETERS))))
+    size = prior.mean.size
+    before = prior.draw(np.tile(np.array(SHARES)[:, None], (1, size)))
     nats = found.nats(prior)
     rows = []
-    for j, name in enumerate(PARAMETERS):
+    for j, name in enumerate(PARAMETERS[:size]):
         ends = np.stack([before[:, j], found.quantiles(found.points[:, j], np.array(SHARES))])
         first, then = ends if name == "hurst" else np.exp(ends)
         rows.append(InferredParameter(name, _UNITS[name], _three(first), _three(then), float(nats[j])))

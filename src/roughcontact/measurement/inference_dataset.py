@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -9,12 +10,16 @@ import numpy as np
 from roughcontact.labels.labelled import described, plain_values, variable
 from roughcontact.measurement.joint_data import JointClosures
 from roughcontact.measurement.joint_inference import SHARES, JointInference
+from roughcontact.measurement.joint_plan import JointPlan
 from roughcontact.validation import Array
 
 if TYPE_CHECKING:
     import xarray
 
-__all__ = ["LEVELS", "MeasuredPoints", "inference_dataset", "inference_record", "measured_points"]
+__all__ = [
+    *("LEVELS", "MeasuredPoints"),
+    *("inference_dataset", "inference_record", "measured_points", "plan_dataset"),
+]
 
 LEVELS = (0.5, 0.9)  # of intervals and bands
 
@@ -156,6 +161,46 @@ def inference_record(inference: JointInference) -> dict[str, Any]:
         "fits": inference.fits,
         "departs": inference.departs,
         "parameters": parameters,
+        "explanations": [dataclasses.asdict(each) for each in inference.explanations],
         "notes": list(inference.notes),
         "units": {name: unit for name, each in parts.items() if (unit := each.attrs["units"]) != "1"},
     }
+
+
+def plan_dataset(plan: JointPlan) -> xarray.Dataset:
+    """Return the widths of a plan along ``area`` and ``number``, and those without one load along ``load``.
+
+    Parameters
+    ----------
+    plan : JointPlan
+
+    Returns
+    -------
+    xarray.Dataset
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import roughcontact as rc
+    >>> topography = rc.JointTopography(rms=1.2e-6, rms_error=0.5, rolloff=1e-4, rolloff_error=0.3)
+    >>> plan = rc.plan_joint(
+    ...     np.geomspace(7e6, 140e6, 5), errors=0.05, gain=0.03, modulus=115e9, modulus_error=0.02,
+    ...     areas=np.array([1e-6, 2e-6]), profile=topography,
+    ... )
+    >>> dict(plan.to_dataset().sizes)
+    {'area': 2, 'number': 5, 'load': 5}
+    """
+    import xarray
+
+    words = "standard deviation of ln h_eff"
+    columns = {"width": described(("area", "number"), plan.width, words)}
+    if plan.without.size:
+        columns["width_without"] = described("load", plan.without, f"{words} without this load")
+        columns["nominal_pressure"] = variable("nominal_pressure", ("load",), plan.pressures)
+    coordinates = {
+        "area": described("area", plan.areas, "nominal area of a joint", "m2"),
+        "number": described("number", plan.specimens, "number of joints"),
+    }
+    return xarray.Dataset(
+        columns, coordinates, {"Conventions": "CF-1.11", "title": "plan of a measurement of joints"}
+    )

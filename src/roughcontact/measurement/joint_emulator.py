@@ -1,7 +1,8 @@
 """Stiffness per area of joints of Gaussian surfaces: mean and scatter, fitted to computed ensembles.
 
-Lengths count in roll-off wavelengths l, heights in rms heights h, pressures in E* h/l and stiffnesses in E*/l. A
-specimen is then described by its Hurst exponent, its side L/l and its band l/l_c.
+Lengths count in roll-off wavelengths l, heights in rms heights h, pressures and hardness in E* h/l and stiffnesses in
+E*/l. A specimen is then described by its Hurst exponent, its side L/l and its band l/l_c, and on first loading of
+surfaces that flow also by its hardness.
 """
 
 from __future__ import annotations
@@ -15,10 +16,15 @@ import numpy as np
 
 from roughcontact.validation import Array
 
-__all__ = ["BAND", "HURST", "LARGE", "LEAST_AREA", "SIDE", "JointEmulator", "joint_emulator", "terms"]
+__all__ = [
+    *("BAND", "FLOWING", "HURST", "LARGE", "LEAST_AREA", "SIDE", "SOFTEST"),
+    *("JointEmulator", "flow_terms", "joint_emulator", "terms"),
+]
 
 HURST, SIDE, BAND = (0.3, 1.2), (4.0, 16.0), (4.0, 8.0)  # of the computed ensembles
 LARGE = 32.0  # L/l of the joints at which the law of larger areas was measured
+SOFTEST = 0.6  # hardness over E* h/l of the computed joints that flow
+FLOWING = 0.5  # largest share of the joint that flows, p over hardness
 LEAST_AREA = 64.0  # l^2: below, single asperities carry the joint
 
 
@@ -38,6 +44,10 @@ class JointEmulator:
         Standard deviation of the means of unseen ensembles about the fit, without their own scatter.
     departure : array, shape (n,)
         Mean of joints of `LARGE` less that of independent pieces.
+    flow : array, shape (4,)
+        Coefficients of `flow_terms`: mean of ln K on first loading of joints that flow, less that of elastic ones.
+    flow_misfit : float
+        Standard deviation of the means of joints that flow about it, relative to it.
     freedom : float
         Number of specimens behind the covariance, less one for each ensemble.
     inflation : float
@@ -50,10 +60,14 @@ class JointEmulator:
     correlation: Array
     misfit: Array
     departure: Array
+    flow: Array
+    flow_misfit: float
     freedom: float
     inflation: float
 
-    def at(self, hurst: Array, side: Array, band: Array, pressure: Array) -> tuple[Array, Array]:
+    def at(
+        self, hurst: Array, side: Array, band: Array, pressure: Array, hardness: Array | None = None
+    ) -> tuple[Array, Array]:
         """Return mean and covariance at ln(p l/(E* h)).
 
         Joints larger than the largest ensemble are made of independent pieces: their variance falls with the area, and
@@ -66,6 +80,8 @@ class JointEmulator:
             Of m specimens.
         pressure : array, shape (m, d)
             ln(p l/(E* h)), within the nodes.
+        hardness : array, shape (m,), optional
+            Logarithm of the hardness over E* h/l, on first loading; None for elastic joints.
 
         Returns
         -------
@@ -84,7 +100,12 @@ class JointEmulator:
         unsure = weights @ (beyond * self.departure / 2)[:, :, None]
         covariance = scattered @ self.correlation @ scattered.swapaxes(1, 2)
         covariance = covariance + missed @ missed.swapaxes(1, 2) + unsure @ unsure.swapaxes(1, 2)
-        return (weights @ mean[:, :, None])[:, :, 0], covariance
+        mean = (weights @ mean[:, :, None])[:, :, 0]
+        if hardness is not None:
+            softer = flow_terms(pressure, hardness[:, None]) @ self.flow
+            mean = mean + softer
+            covariance = covariance + self.flow_misfit**2 * softer[:, :, None] * softer[:, None, :]
+        return mean, covariance
 
 
 def terms(hurst: Array, side: Array, band: Array) -> Array:
@@ -101,6 +122,16 @@ def terms(hurst: Array, side: Array, band: Array) -> Array:
     return np.stack([np.ones_like(axes[0]), *axes, *products], axis=-1)
 
 
+def flow_terms(pressure: Array, hardness: Array) -> Array:
+    """Return what the effect of flow on ln K is fitted with, shape (..., 4), for ln(p l/(E* h)) and the hardness alike.
+
+    For hard joints it vanishes with one over the hardness; the last term is that of joints that flow in half.
+    """
+    over = np.exp(-hardness)
+    p = np.exp(pressure)
+    return np.stack(np.broadcast_arrays(over, over * np.sqrt(p), over * p, (over * p) ** 2), axis=-1)
+
+
 @cache
 def joint_emulator() -> JointEmulator:
     """Return the emulator of the package, see ``benchmarks/joint_table.py``."""
@@ -113,6 +144,8 @@ def joint_emulator() -> JointEmulator:
         correlation=np.array(table["correlation"]),
         misfit=np.array(table["misfit"]),
         departure=np.array(table["departure"]),
+        flow=np.array(table["flow"]),
+        flow_misfit=table["flow_misfit"],
         freedom=table["freedom"],
         inflation=table["inflation"],
     )

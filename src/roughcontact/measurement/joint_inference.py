@@ -10,13 +10,13 @@ from roughcontact import methods
 from roughcontact.guesses import hinted
 from roughcontact.measurement.importance import Posterior
 from roughcontact.measurement.joint_data import JointClosures, JointData
-from roughcontact.measurement.joint_model import JointModel
+from roughcontact.measurement.joint_explanations import JointExplanation
+from roughcontact.measurement.joint_model import UNLIKELY, JointModel
 from roughcontact.validation import Array, numeric, require
 
 __all__ = ["InferredParameter", "JointInference"]
 
 SHARES = (0.05, 0.5, 0.95)
-UNLIKELY = 0.02  # probability of a measurement below which the model is refused
 INFORMED = 0.3  # nats, a standard deviation of 0.74 of the prior's: with less, a parameter counts as unknown
 
 
@@ -66,15 +66,17 @@ class JointInference:
     departs : str
         In what the measurement departs most: "level", "slope" or "curvature".
     parameters : tuple of InferredParameter
-        Rms height, roll-off wavelength, Hurst exponent, band and modulus; empty if the model does not fit, or for one
-        load.
+        Rms height, roll-off wavelength, Hurst exponent, band, modulus and, if given, hardness; empty if the model does
+        not fit, or for one load.
+    explanations : tuple of JointExplanation
+        If it is not the joint of a given topography: what would make it so.
     data : JointData
         The measurement.
     notes : tuple of str
     model : JointModel
     posterior : Posterior
         Weighted draws of the logarithms of rms height and roll-off wavelength, the Hurst exponent, and the logarithms
-        of band and modulus.
+        of band, modulus and, if given, hardness.
 
     Examples
     --------
@@ -91,6 +93,7 @@ class JointInference:
     p_value: float
     departs: str
     parameters: tuple[InferredParameter, ...]
+    explanations: tuple[JointExplanation, ...]
     data: JointData
     notes: tuple[str, ...]
     model: JointModel

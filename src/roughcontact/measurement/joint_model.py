@@ -11,12 +11,13 @@ import scipy.special
 
 from roughcontact.measurement.importance import Posterior, Prior
 from roughcontact.measurement.joint_data import JointData
-from roughcontact.measurement.joint_emulator import JointEmulator
+from roughcontact.measurement.joint_emulator import FLOWING, SOFTEST, JointEmulator
 from roughcontact.validation import Array
 
-__all__ = ["DISCREPANCY", "JointModel", "discrepancy"]
+__all__ = ["DISCREPANCY", "DRAWN", "UNLIKELY", "JointModel", "discrepancy"]
 
 DISCREPANCY = 0.05  # of K, relative: what separates a real joint from a Gaussian elastic one
+UNLIKELY = 0.02  # probability of a measurement below which the model is refused
 DRAWN = 2000  # joints that a measurement is compared with
 DECADE = math.log(10)  # of pressure, over which the discrepancy is correlated
 
@@ -29,22 +30,24 @@ def discrepancy(log_pressures: Array) -> Array:
 
 @dataclass(frozen=True, slots=True, eq=False)
 class JointModel:
-    """Stiffness of a joint of a given area as a function of `PARAMETERS`.
+    """Stiffness of a joint of a given area as a function of `PARAMETERS`, the hardness if it flows.
 
     Attributes
     ----------
     emulator : JointEmulator
     area : float
         Nominal area [m^2].
+    carrying : float
+        Share of it that carries the joint: the crests of a waviness. In between, the faces do not touch.
     """
 
     emulator: JointEmulator
     area: float
+    carrying: float = 1.0
 
     def place(self, points: Array, log_pressures: Array) -> Array:
-        """Return ln(p l/(E* h)), shape (m, d), for points of shape (m, 5) and ln p of shape (d,)."""
-        rms, rolloff, _, _, modulus = points.T
-        return np.asarray(log_pressures + (rolloff - modulus - rms)[:, None])
+        """Return ln(p l/(E* h)) where the joint carries, shape (m, d), for points of shape (m, 5 or 6) and ln p."""
+        return np.asarray(log_pressures - math.log(self.carrying) - _scale(points)[:, None])
 
     def inside(self, points: Array, log_pressures: Array) -> npt.NDArray[np.bool_]:
         """Return where all pressures are within those of the emulator, shape (m,)."""
@@ -53,15 +56,25 @@ class JointModel:
     def margin(self, points: Array, log_pressures: Array) -> Array:
         """Return the distance of the pressures from the ends of the emulator in ln p, negative beyond, shape (m,)."""
         place = self.place(points, log_pressures)
-        low, high = self.emulator.nodes[0], self.emulator.nodes[-1]
-        return np.asarray(np.minimum(place.min(axis=1) - low, high - place.max(axis=1)))
+        least, most = place.min(axis=1), place.max(axis=1)
+        found = np.minimum(least - self.emulator.nodes[0], self.emulator.nodes[-1] - most)
+        hardness = _hardness(points)
+        if hardness is not None:
+            found = np.minimum(found, hardness + math.log(FLOWING) - most)
+            found = np.minimum(found, hardness - math.log(SOFTEST))
+        return np.asarray(found)
 
     def stiffness(self, points: Array, log_pressures: Array) -> tuple[Array, Array]:
         """Return mean and covariance of ln(K/A0) over joints, shapes (m, n) and (m, n, n), discrepancy included."""
-        _, rolloff, hurst, band, modulus = points.T
-        side = math.sqrt(self.area) * np.exp(-rolloff)
-        mean, covariance = self.emulator.at(hurst, side, np.exp(band), self.place(points, log_pressures))
-        return mean + (modulus - rolloff)[:, None], covariance + discrepancy(log_pressures)
+        mean, covariance = self._at(points, self.place(points, log_pressures))
+        level = points[:, 4] - points[:, 1] + math.log(self.carrying)
+        return mean + level[:, None], covariance + discrepancy(log_pressures)
+
+    def _at(self, points: Array, place: Array) -> tuple[Array, Array]:
+        """Return mean and covariance of ln(K l/(E* A0)) at ln(p l/(E* h))."""
+        _, rolloff, hurst, band = points.T[:4]
+        side = math.sqrt(self.area * self.carrying) * np.exp(-rolloff)
+        return self.emulator.at(hurst, side, np.exp(band), place, _hardness(points))
 
     def at(self, points: Array, data: JointData) -> tuple[Array, Array]:
         """Return mean and covariance of what is measured, its noise included, shapes (m, d) and (m, d, d)."""
@@ -90,9 +103,7 @@ class JointModel:
         step = np.array([-0.25, 0.25])
         low, high = self.emulator.nodes[0], self.emulator.nodes[-1]
         shift = np.clip(self.place(points, np.array([log_pressure])), low + step[1], high - step[1])
-        _, rolloff, hurst, band, _ = points.T
-        side = math.sqrt(self.area) * np.exp(-rolloff)
-        mean, _ = self.emulator.at(hurst, side, np.exp(band), shift + step)
+        mean, _ = self._at(points, shift + step)
         return np.asarray((mean[:, 1] - mean[:, 0]) / (step[1] - step[0]))
 
     def p_value(self, data: JointData, prior: Prior | None, found: Posterior) -> tuple[float, str]:
@@ -101,26 +112,35 @@ class JointModel:
         Level, slope and curvature against ln p are compared with joints of the posterior, and the level with joints of
         the prior too, if one is given. The smallest of the probabilities counts, times their number.
         """
-        size = data.measured.size
-        at = np.log(data.pressures[-size:])
-        contrasts = np.linalg.qr(np.vander(at - at.mean(), min(size, 3), increasing=True))[0].T / data.scale
         rng = np.random.default_rng(0)
         drawn = found.points[rng.choice(len(found.weights), DRAWN, p=found.weights)]
-        chances = [
-            (self._beyond(data, drawn, contrast), name)
-            for name, contrast in zip(("level", "slope", "curvature"), contrasts, strict=False)
-        ]
+        chances = [(chance, name) for name, chance in self.chances(data, drawn).items()]
         if prior is not None:
             points = prior.draw(rng.random((DRAWN, prior.mean.size)))
             points = points[self.inside(points, data.log_pressures)]
             if len(points):
-                chances.append((self._beyond(data, points, contrasts[0]), "level"))
+                chances.append((self.chances(data, points)["level"], "level"))
         chance, departs = min(chances)
         return min(1.0, len(chances) * chance), departs
 
-    def _beyond(self, data: JointData, points: Array, contrast: Array) -> float:
-        """Return the probability that a contrast of other measurements is as far out as that of the data."""
+    def chances(self, data: JointData, points: Array) -> dict[str, float]:
+        """Return the probabilities that level, slope and curvature of measurements of joints are as far out."""
+        size = data.measured.size
+        at = np.log(data.pressures[-size:])
+        contrasts = np.linalg.qr(np.vander(at - at.mean(), min(size, 3), increasing=True))[0].T / data.scale
         mean, covariance = self.at(points, data)
-        departure = (data.measured - mean) @ contrast / np.sqrt(contrast @ covariance @ contrast)
-        above = float(scipy.special.ndtr(departure).mean())
-        return 2 * min(above, 1 - above)
+        departure = (data.measured - mean) @ contrasts.T
+        scatter = np.sqrt(np.einsum("ki,mij,kj->mk", contrasts, covariance, contrasts))
+        above = scipy.special.ndtr(departure / scatter).mean(axis=0)
+        both = 2 * np.minimum(above, 1 - above)
+        return dict(zip(("level", "slope", "curvature"), both.tolist(), strict=False))
+
+
+def _scale(points: Array) -> Array:
+    """Return ln(E* h/l)."""
+    return np.asarray(points[:, 4] + points[:, 0] - points[:, 1])
+
+
+def _hardness(points: Array) -> Array | None:
+    """Return the logarithm of the hardness over E* h/l, if the points have a hardness."""
+    return points[:, 5] - _scale(points) if points.shape[1] > 5 else None

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from roughcontact import methods
 from roughcontact.errors import InputError
 from roughcontact.guesses import hinted
 from roughcontact.measurement.importance import Prior
@@ -33,6 +34,10 @@ class JointPlan:
         Numbers of joints that are measured.
     width : array, shape (a, s)
         Standard deviation of the logarithm of the effective height.
+    pressures : array, shape (n,)
+        Nominal pressures of the loads [Pa].
+    without : array, shape (n,)
+        Width of the first area and number of specimens without one of the loads; empty for one load.
 
     Examples
     --------
@@ -50,6 +55,10 @@ class JointPlan:
     areas: Array
     specimens: Array
     width: Array
+    pressures: Array
+    without: Array
+
+    to_dataset = methods.plan_dataset
 
     @numeric
     def reaching(self, width: float) -> tuple[float, int] | None:
@@ -146,15 +155,20 @@ def plan_joint(
     spots = np.atleast_1d(positive(areas, "areas")).astype(np.float64)
     one = np.ones_like(np.atleast_1d(pressures), dtype=np.float64)
     data = JointStiffness(pressures, one, np.asarray(errors, dtype=np.float64), gain)
-    rows = []
-    for area in spots:
-        prior = prior_of(modulus, modulus_error, float(area), profile)
+
+    def width(area: float, number: int, loads: JointStiffness) -> float:
+        prior = prior_of((modulus, modulus_error), area, profile)
         middle = np.clip(prior.mean, prior.low, prior.high)
         middle[3] = (prior.low[3] + prior.high[3]) / 2  # the band is uniform
-        rows.append(
-            [fisher_width(JointModel(joint_emulator(), float(area)), data, middle, prior, n) for n in many]
-        )
-    return JointPlan(spots, np.array(many, dtype=np.float64), np.array(rows))
+        return fisher_width(JointModel(joint_emulator(), area), loads, middle, prior, number)
+
+    widths = [[width(float(area), number, data) for number in many] for area in spots]
+    kept = [np.arange(one.size) != k for k in range(one.size)] if one.size > 1 else []
+    fewer = [JointStiffness(data.pressures[some], one[some], data.errors[some], gain) for some in kept]
+    without = [width(float(spots[0]), many[0], loads) for loads in fewer]
+    return JointPlan(
+        spots, np.array(many, dtype=np.float64), np.array(widths), data.pressures, np.array(without)
+    )
 
 
 def fisher_width(

@@ -14,7 +14,7 @@ from roughcontact.validation import positive, require, require_numbers
 
 __all__ = ["PARAMETERS", "JointTopography", "prior_of"]
 
-PARAMETERS = ("rms", "rolloff", "hurst", "band", "modulus")  # logarithms of all but the exponent
+PARAMETERS = ("rms", "rolloff", "hurst", "band", "modulus", "hardness")  # logarithms of all but the exponent
 _RMS = (1e-10, 1e-2)  # m, without a topography
 _LARGEST = 1e3  # side of a joint over roll-off wavelength, without a topography
 _WIDE = 4  # standard deviations at which a prior ends
@@ -67,8 +67,13 @@ class JointTopography:
         )
 
 
-def prior_of(modulus: float, modulus_error: float, area: float, profile: JointTopography | None) -> Prior:
-    """Return the prior of `PARAMETERS`.
+def prior_of(
+    modulus: tuple[float, float],
+    area: float,
+    profile: JointTopography | None,
+    hardness: tuple[float, float] | None = None,
+) -> Prior:
+    """Return the prior of `PARAMETERS`; modulus and hardness each with a relative error, None for an elastic joint.
 
     Without a topography rms height and roll-off wavelength are uniform in their logarithms, the latter up to an
     eighth of the side of the joint. Nothing is known of the band beyond the limits of the emulator.
@@ -97,8 +102,10 @@ def prior_of(modulus: float, modulus_error: float, area: float, profile: JointTo
         rolloff = (*low[:3], min(low[3], math.log(longest)))
         hurst = (profile.hurst, profile.hurst_error, *HURST)
     band = (0.0, inf, *np.log(BAND))
-    rows = np.array([rms, rolloff, hurst, band, _log_normal(modulus, modulus_error)], dtype=np.float64)
-    return Prior(*rows.T)
+    rows = [rms, rolloff, hurst, band, _log_normal(*modulus)]
+    if hardness is not None:
+        rows.append(_log_normal(*hardness))
+    return Prior(*np.array(rows, dtype=np.float64).T)
 
 
 def _log_normal(value: float, error: float) -> tuple[float, float, float, float]:

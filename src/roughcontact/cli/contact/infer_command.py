@@ -9,6 +9,8 @@ from roughcontact.cli.messages import note, plain
 from roughcontact.cli.options import Answer
 from roughcontact.cli.output import all_or_none, command_line, output
 from roughcontact.cli.report import emit, print_facts, print_table, quantity
+from roughcontact.labels.engineering_units import written
+from roughcontact.labels.labelled import plain_values
 from roughcontact.recipe.job_calls import performed
 from roughcontact.recipe.jobs import calls_of, known_names
 from roughcontact.recipe.measured.infer_job import InferJob
@@ -16,7 +18,10 @@ from roughcontact.recipe.recipe_fields import value_of
 from roughcontact.recipe.written import carried
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from roughcontact.measurement.joint_inference import JointInference
+    from roughcontact.measurement.joint_plan import JointPlan
 
 __all__ = ["EXAMPLES", "infer"]
 
@@ -27,6 +32,8 @@ roughcontact infer joint.csv --materials steel,aluminium --area 2cm^2 --branch l
 --rms 1.2um --rms-error 10% --rolloff 100um --rolloff-error 30%
 roughcontact infer closure.csv --modulus 115GPa --area 2cm^2 --branch unloading --quantity closure \
 --resolution 10nm --compliance 1e-14m/Pa
+roughcontact infer joint.csv --modulus 115GPa --area 2mm^2 --branch loading --plan 8% \
+--rms 1.2um --rms-error 50% --rolloff 100um --rolloff-error 30%
 roughcontact infer echo.csv --materials steel,aluminium --area 2cm^2 --branch loading --quantity reflection \
 --errors 0.005 --frequency 2MHz
 """,
@@ -51,6 +58,9 @@ def infer(job: InferJob, *, answer: Answer) -> None:
     with output(answer.out) as folder:
         note_materials(job.bodies)
         known = performed(calls_of(job), known_names())
+        if job.profile.plan is not None:
+            _planned(job, known["plan"], folder, answer)
+            return
         found: JointInference = known["inference"]
         record = {"command": job.NAME, "file": plain(job.source.file), **found.to_record()}
         record |= {"converged": True, "recipe": carried(job, answer.out)}  # there is nothing to solve
@@ -76,6 +86,47 @@ def infer(job: InferJob, *, answer: Answer) -> None:
     answer.finish(folder, names, job, found)
 
 
+def _planned(job: InferJob, plan: JointPlan, folder: Path | None, answer: Answer) -> None:
+    """Print the widths of a plan, and which joints reach the wanted one."""
+    from roughcontact.files.provenance import provenance
+    from roughcontact.files.write import write_csv, write_json, write_netcdf
+
+    wanted = value_of(job.profile, "plan")
+    reached = plan.reaching(wanted)
+    dataset = plan.to_dataset()
+    columns = {str(name): plain_values(each.to_numpy()) for name, each in dataset.variables.items()}
+    record = {"command": job.NAME, "file": plain(job.source.file), **columns, "wanted": wanted}
+    record |= {"reached": reached and dict(zip(("area", "number"), reached, strict=True))}
+    record |= {"converged": True, "recipe": carried(job, answer.out)}
+    if folder is not None:
+        rows = dataset[["width"]].stack(row=("area", "number")).reset_index("row").reset_coords()
+        source = provenance(command=command_line(), recipe=record["recipe"])
+        with all_or_none(folder) as aside:
+            write_netcdf(dataset, aside / "plan.nc", source)
+            write_csv(rows, aside / "plan.csv", dimension="row")
+            write_json(record, aside / "plan.json", source)
+    if answer.json:
+        emit(record)
+    else:
+        facts = [("file", record["file"]), ("wanted", f"{wanted:.3g}, standard deviation of ln h_eff")]
+        facts.append(("reached with", "none of these" if reached is None else _joints(*reached)))
+        print_facts(facts)
+        header = ["area", *(f"{number:.0f} joint{'s' if number > 1 else ''}" for number in plan.specimens)]
+        widths = zip(plan.areas, plan.width, strict=True)
+        print_table(header, [[written(float(area), "m2"), *(f"{w:.3f}" for w in ws)] for area, ws in widths])
+        if plan.without.size:
+            left = [
+                (quantity("nominal_pressure", float(p)), f"{w:.3f}")
+                for p, w in zip(plan.pressures, plan.without, strict=True)
+            ]
+            print_table(["without the load of", f"{written(float(plan.areas[0]), 'm2')}, one joint"], left)
+    answer.finish(folder, ("plan.csv", "plan.json", "plan.nc"), job, plan)
+
+
+def _joints(area: float, number: int) -> str:
+    return f"{number} joint{'s' * (number > 1)} of {written(area, 'm2')}"
+
+
 def _facts(job: InferJob, found: JointInference, modulus: float) -> list[tuple[str, str]]:
     """Return the lines about the measurement and about the height."""
     p, error = found.data.pressures, value_of(job.joint, "modulus_error")
@@ -99,8 +150,6 @@ def _facts(job: InferJob, found: JointInference, modulus: float) -> list[tuple[s
 
 def _print(found: JointInference) -> None:
     """Print prior beside posterior: a row for each parameter."""
-    from roughcontact.labels.engineering_units import written
-
     header = ["parameter", *(f"{of} {share} %" for of in ("prior", "posterior") for share in (5, 50, 95))]
     rows = []
     for each in found.parameters:

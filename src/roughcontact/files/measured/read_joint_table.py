@@ -33,6 +33,7 @@ _LINES = {
     "stiffness": "pressure [MPa], stiffness [N/um/mm^2]",
     "closure": "pressure [MPa], closure [um]",
     "reflection": "pressure [MPa], reflection",
+    "loads": "pressure [MPa]",
 }
 
 
@@ -43,13 +44,14 @@ class JointTable:
     Attributes
     ----------
     quantity : str
-        "stiffness", "closure" or "reflection".
+        "stiffness", "closure" or "reflection"; "loads" for those of a measurement that is planned.
     pressures : array, shape (d,)
         Nominal pressures [Pa].
     values : array, shape (d,)
-        K/A0 [Pa/m], closure [m] or size of the reflection [-].
+        K/A0 [Pa/m], closure [m] or size of the reflection [-]; of planned loads empty.
     given_errors : array, shape (d,), or None
-        Standard errors, if the table has them: relative ones of a stiffness, otherwise in the unit of the values.
+        Standard errors, if the table has them: relative ones of a stiffness and of planned loads, otherwise in the unit
+        of the values.
 
     Examples
     --------
@@ -86,7 +88,7 @@ class JointTable:
 
 def read_joint_table(
     path: str | os.PathLike[str],
-    quantity: Literal["stiffness", "closure", "reflection"] = "stiffness",
+    quantity: Literal["stiffness", "closure", "reflection", "loads"] = "stiffness",
     *,
     columns: str | None = None,
 ) -> JointTable:
@@ -99,8 +101,8 @@ def read_joint_table(
     ----------
     path : str or path
         The file: columns separated by commas, semicolons, tabs or blanks.
-    quantity : {"stiffness", "closure", "reflection"}
-        The column to read beside the pressures.
+    quantity : {"stiffness", "closure", "reflection", "loads"}
+        The column to read beside the pressures: none for "loads".
     columns : str, optional
         Names and units of the columns, in place of the line in the file.
 
@@ -138,14 +140,14 @@ def read_joint_table(
         like = _LINES[quantity] + ", error [%]" * (count > 2)
         remedy = f"write such a line above the columns, or give columns='{like}'"
         places = _places(lines, count)
-        if missing := [name for name in ("pressure", quantity) if name not in places]:
-            others = [name for name in _LINES if name in places and missing == [quantity]]
-            raise _lacking(missing[0], others, remedy)
+        wanted = ("pressure",) if quantity == "loads" else ("pressure", quantity)
+        if missing := [name for name in wanted if name not in places]:
+            instead = [name for name in _LINES if name in places and missing == [quantity]]
+            raise _lacking(missing[0], instead, remedy)
         units = column_units(lines, count)
         read = {name: (table.values[:, place], units[place]) for name, place in places.items()}
-        pressures, values = (
-            read[name][0] * _factor(name, read[name][1], remedy) for name in ("pressure", quantity)
-        )
+        pressures, *others = (read[name][0] * _factor(name, read[name][1], remedy) for name in wanted)
+        values = others[0] if others else np.empty(0)
         errors = _errors(*read["error"], values, quantity, remedy) if "error" in read else None
     for message in table.warnings:
         warnings.warn(f"{file}: {message}", SurfaceWarning, stacklevel=2)
@@ -177,7 +179,7 @@ def _lacking(name: str, others: list[str], remedy: str) -> ContentError:
 def _errors(values: Array, unit: str | None, of: Array, quantity: str, remedy: str) -> Array:
     """Return a column of errors: relative ones of a stiffness, otherwise in SI."""
     if quantity != "reflection" and unit in _PURE:
-        return values * _PURE[unit] * (1.0 if quantity == "stiffness" else np.abs(of))
+        return values * _PURE[unit] * (np.abs(of) if quantity == "closure" else 1.0)
     absolute = values * _factor(quantity, unit, remedy)
     return np.asarray(absolute / of if quantity == "stiffness" else absolute)
 

@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 
 from roughcontact.errors import InputError
 from roughcontact.files.quantity import AREA, COMPLIANCE_AREA, FREQUENCY, IMPEDANCE, LENGTH
-from roughcontact.recipe.bodies import Bodies, of_both
+from roughcontact.recipe.bodies import Bodies, hardness_of, of_both
 from roughcontact.recipe.job_calls import Call, Name
 from roughcontact.recipe.recipe_fields import check, described, require_with, value_of, values_of
 from roughcontact.recipe.texts import METALS, Amount, Choice, Likely, PureNumber, Share, sha256, word
@@ -20,6 +20,7 @@ _OF = {
     "closure": ("resolution", "compliance", "compliance_error"),
     "reflection": ("errors", "gain", "frequency", "impedance"),
 }
+PLANNED = (1, 2, 4, 8)  # areas of a plan over the given one
 _EXPONENT = PureNumber(0.3, 1.2, "the Hurst exponent", "0.8")
 _COMPLIANCE = Amount(COMPLIANCE_AREA)
 _WAVE = Likely(Amount(FREQUENCY), 1e4, 1e10, "no ultrasound", "MHz")
@@ -108,10 +109,14 @@ class JointMeasurement:
                 "frequency",
             )
 
+    def table(self, quantity: str) -> Call:
+        """Return the call that reads the table."""
+        columns = {} if self.columns is None else {"columns": self.columns}
+        return Call("rc.read_joint_table", (self.file, quantity), columns, "table", place="source")
+
     def calls(self, bodies: Bodies) -> Iterator[Call]:
         """Yield the calls that read the table and make the measurement."""
-        columns = {} if self.columns is None else {"columns": self.columns}
-        yield Call("rc.read_joint_table", (self.file, self.quantity), columns, "table", place="source")
+        yield self.table(self.quantity)
         given = {name: value_of(self, name) for name in _OF[self.quantity]}
         named: dict[str, Any] = {name: value for name, value in given.items() if value is not None}
         error = named.pop("errors" if "errors" in given else "resolution", Name("table.errors"))
@@ -144,9 +149,20 @@ class MeasuredJoint:
         default="2%",
         everyday=True,
     )
+    hardness: str | None = described(
+        "Hardness of the softer face if it flows on loading, or the name of its material (default: elastic).",
+        "2GPa",
+        read=hardness_of,
+        names=METALS,
+        everyday=True,
+    )
+    hardness_error: str | None = described(
+        "Its relative standard error.", "10%", read=Share("the error"), needs="hardness", everyday=True
+    )
 
     def __post_init__(self) -> None:
         check(self)
+        require_with(self, "hardness", hardness_error="10%")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -172,6 +188,14 @@ class JointProfile:
         "0.15",
         read=PureNumber(0, 1, "the error", "0.15", ends=False),
         needs="hurst",
+    )
+    plan: str | None = described(
+        "Plan a measurement: the wanted standard error of the effective height. Prints which areas and numbers of "
+        "joints reach it; the table needs pressures only.",
+        "5%",
+        read=Share("the error"),
+        needs="rms",
+        everyday=True,
     )
 
     def __post_init__(self) -> None:
@@ -201,18 +225,44 @@ class InferJob:
                 "give `impedance`, such as steel,aluminium or 46MPa*s/m",
                 "source.impedance",
             )
+        if self.profile.plan is None:
+            return
+        if self.source.quantity != "stiffness":
+            raise InputError(
+                "a plan is made for stiffnesses", "leave out the `quantity`, or the `plan`", "source.quantity"
+            )
+        if self.joint.hardness is not None:
+            raise InputError(
+                "a plan is made for elastic joints",
+                "leave out the `hardness`, or the `plan`",
+                "joint.hardness",
+            )
 
     def calls(self) -> Iterator[Call]:
-        """Yield the calls that read the measurement, and the inference."""
-        yield from self.source.calls(self.bodies)
+        """Yield the calls that read the measurement, and the inference or the plan."""
+        planned = self.profile.plan is not None
+        yield from (self.source.table("loads"),) if planned else self.source.calls(self.bodies)
         if self.bodies.modulus is None:
             yield Call("rc.reduced_modulus", self.bodies.elastic(), result="modulus", place="bodies")
         else:
             yield from self.bodies.calls()
         named: dict[str, Any] = {"modulus": Name("modulus"), **values_of(self.joint)}
-        if topography := values_of(self.profile):
+        if planned:
+            named = {name: named[name] for name in ("modulus", "modulus_error")}
+            named |= {"areas": tuple(times * value_of(self.joint, "area") for times in PLANNED)}
+            error = value_of(self.source, "errors")
+            named |= {"errors": Name("table.errors") if error is None else error}
+            named |= {"gain": value_of(self.source, "gain") or 0.0}
+        topography = values_of(self.profile)
+        topography.pop("plan", None)
+        if topography:
             yield Call("rc.JointTopography", (), topography, "profile", place="profile")
             named["profile"] = Name("profile")
+        if planned:
+            yield Call(
+                "rc.plan_joint", (Name("table.pressures"),), named, "plan", place="joint", doing="Plan"
+            )
+            return
         yield Call("rc.infer_joint", (Name("data"),), named, "inference", place="joint", doing="Inference")
 
 

@@ -39,6 +39,7 @@ __all__ = [
     "prefactor_error",
     "relative_error",
     "single_range",
+    "squares_needed",
     "stiffness",
 ]
 
@@ -275,6 +276,38 @@ def single_range(
     mean = scale * np.exp(laws.log_stiffness(f, h))
     low, high = laws.quantiles(f, h)
     return mean * low, mean * high
+
+
+@numeric
+def squares_needed(hurst: ArrayLike, error: ArrayLike, *, cut: Cut) -> Array:
+    """Return how many squares must be measured to know their Hurst exponent from their stiffness.
+
+    Exponents of k(F) are fitted to single squares over the window of the law. They scatter from square to square, and
+    this scatter over dalpha/dH and the wanted error, squared, is the number. Errors of the measurement add to it.
+
+    Parameters
+    ----------
+    hurst : float or array
+        Expected Hurst exponent H, from 0.1 to 2.95.
+    error : float or array
+        Wanted standard error of H.
+    cut : {"interior", "period", "patch"}
+        Where the square is cut out of its surface.
+
+    Returns
+    -------
+    float or array
+        Number of squares, not rounded.
+
+    Examples
+    --------
+    >>> from roughcontact.theory import rough_square
+    >>> f"{rough_square.squares_needed(0.7, 0.1, cut='interior'):.0f} squares for H = 0.7 +- 0.1"
+    '15 squares for H = 0.7 +- 0.1'
+    """
+    h, laws = _hurst(hurst), laws_of_cut(cut)
+    found: Array = (laws.at(h, "scatter") / laws.slope(h) / positive(error, "error")) ** 2
+    return found
 
 
 @numeric

@@ -35,6 +35,11 @@ class SquareLaws:
         alpha: Array = self._smooth("exponent")(hurst)[()]
         return alpha
 
+    def slope(self, hurst: Array) -> Array:
+        """Return dalpha/dH."""
+        slope: Array = self._smooth("exponent").derivative()(hurst)[()]
+        return slope
+
     def level(self, hurst: Array) -> Array:
         """Return kappa, k/(E* L) at the reference force."""
         kappa: Array = self._smooth("level")(hurst)[()]
