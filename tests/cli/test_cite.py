@@ -25,6 +25,7 @@ LINES = {
         *("--young", "1GPa", "--poisson", "0.3", "--friction", "0.2"),
     ),
     "surface spectrum": (),
+    "surface measurements": (),
     "surface info": (),
 }
 PAPERS = {
@@ -39,6 +40,7 @@ PAPERS = {
     "sliding": "Persson2001",
     "joint": "Rotscher1927",
     "surface spectrum": "Pohrt2013",
+    "surface measurements": "roughcontact",
     "surface info": "roughcontact",
 }
 

@@ -165,7 +165,7 @@ def test_a_plan_is_that_of_the_library_and_needs_pressures_only(run):
     assert told["reached"] == pytest.approx({"area": area, "number": number})
     printed = run(f"{line} --plan 6% --out kept").stdout
     assert "1 joint of 200 mm" in printed
-    rows = pd.read_csv("kept/plan.csv", comment="#")
+    rows = pd.read_csv("kept/inference.csv", comment="#")
     assert rows.shape == (20, 3)
     assert rows.filter(like="width").to_numpy().reshape(4, 5) == pytest.approx(plan.width, rel=1e-9)
     assert run("run kept").exit_code == 0

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
-from followed import follow, holed, row
+from followed import commands, follow, follow_command, holed, row
 
 GRID = rc.Grid((64, 64), 1e-6)
 A, B = (rc.self_affine(GRID, 0.8, 1e-7, seed) for seed in (1, 2))
@@ -54,7 +54,7 @@ ROWS = [
     ),
     row(
         lambda: many({"white": WHITE}).combined_spectrum(),
-        "no measurement has a reliable wave: measure larger maps, finer cells or with less noise",
+        "no measurement has a reliable wave (limited by noise): measure larger maps, finer cells or with less noise",
         lambda: many().combined_spectrum(),
     ),
     row(
@@ -121,7 +121,7 @@ READ = [
     ),
     row(
         lambda: save(a=A)("a.npz", surface="part"),
-        "no container states a surface 'part': give one of these, or none",
+        "no container states a surface 'part': leave it out",
         lambda: save(a=A)("a.npz"),
     ),
     row(
@@ -141,3 +141,30 @@ def test_a_refused_measurement_is_made_when_the_message_is_followed(refusal):
 @pytest.mark.usefixtures("folder")
 def test_a_refused_source_is_read_when_the_message_is_followed(refusal):
     follow(refusal)
+
+
+WORDS = "surface measurements"
+COMMANDS = f"""
+$ {WORDS} a.npz bare.npy
+! write it by 'surface prepare FILE new.npz --unit nm --size 1mm', with its own unit and size
+> surface prepare bare.npy new.npz --unit nm --size '48um x 32um' && {WORDS} a.npz new.npz
+
+$ {WORDS} a.npz holed.npz
+! fill them by 'surface prepare --fill', or crop the map by 'surface prepare --crop'
+> surface prepare holed.npz new.npz --fill && {WORDS} a.npz new.npz
+> surface prepare holed.npz new.npz --crop 4:16,0:16 && {WORDS} a.npz new.npz
+
+$ {WORDS} a.npz --surface part
+! --surface: no container states a surface 'part'; leave it out
+> {WORDS} a.npz
+
+$ {WORDS} a.npz --tip-radius 1km
+! no measurement has a reliable wave (limited by tip)
+> {WORDS} a.npz --tip-radius 1um
+"""
+
+
+@pytest.mark.parametrize("refusal", commands(COMMANDS))
+def test_a_command_that_is_refused_runs_when_the_message_is_followed(refusal, command, folder):
+    rc.write(A, folder / "a.npz")
+    follow_command(command, refusal)

@@ -42,6 +42,7 @@ if TYPE_CHECKING:  # tools that bundle programs follow only imports that are wri
         table_command as table_command,
     )
     from roughcontact.cli.surface import (
+        measurements_command as measurements_command,
         prepare_command as prepare_command,
         spectrum_command as spectrum_command,
         surface_command as surface_command,

@@ -41,6 +41,7 @@ SURFACE = {
     "specified": "surface.surface_command",
     "prepare": "surface.prepare_command",
     "spectrum": "surface.spectrum_command",
+    "measurements": "surface.measurements_command",
 }
 STUDY = {
     "from": "study.study_from_command",

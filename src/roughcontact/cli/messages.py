@@ -33,12 +33,20 @@ __all__ = ["UsageError", "as_typed", "ended", "note", "note_all", "plain", "rema
 _WARNINGS = SurfaceWarning, MemoryWarning
 # Keywords and calls of Python in messages of the library, which the place of an error does not cover.
 _OPTIONS = (
+    (
+        re.compile(r"read it by rc\.read\(.*\), and give all maps to rc\.Measurements\.of"),
+        "write it by 'surface prepare FILE new.npz --unit nm --size 1mm', with its own unit and size",
+    ),
+    (
+        re.compile(r"\bby filled\(\), or crop the map by cropped\(\)"),
+        "by 'surface prepare --fill', or crop the map by 'surface prepare --crop'",
+    ),
     (re.compile(r"\bthe width or \(Ly, Lx\)"), "the width or height x width"),
     (re.compile(r"\bsize=\(([^,()]+), ([^,()]+)\)"), r"--size '\1 x \2'"),
     (re.compile(r"\bhardness='([\w-]+)'"), r"--hardness \1"),
     (re.compile(r"\b(channel|unit|size|hardness|quantity|columns)=(?=['\d])"), r"--\1 "),
     (re.compile(r"\brc\.Solid\(210e9, 0\.3\)"), "--young 210GPa --poisson 0.3"),
-    (re.compile(r"\b(channel|unit|size)="), r"--\1"),
+    (re.compile(r"\b(channel|unit|size|surface)="), r"--\1"),
     (re.compile(r"\b(despike|mask)e?d\(\)"), r"'surface prepare --\1'"),
     (re.compile(r"\bsurface\.filled\(\)"), "--fill"),
     (re.compile(r"make the grid with periodic=True"), "give --periodic"),

@@ -38,9 +38,10 @@ def _common(measurements: Sequence[Measurement]) -> _Common:
     pairs = [(one, *one.signal("x" if profiles else "auto")) for one in measurements if one.reliable]
     pairs = [each for each in pairs if each[2][0] < each[2][1]]
     if not pairs:
+        limits = ", ".join(sorted({one.limited_by for one in measurements}))
         raise InputError(
-            "no measurement has a reliable wave",
-            "measure larger maps, finer cells or with less noise; print the measurements to see what limits them",
+            f"no measurement has a reliable wave (limited by {limits})",
+            "measure larger maps, finer cells or with less noise, or check what is stated of the instrument",
             "maps",
         )
     used, signals, bands = zip(*pairs, strict=True)

@@ -102,9 +102,9 @@ def _planned(job: InferJob, plan: JointPlan, folder: Path | None, answer: Answer
         rows = dataset[["width"]].stack(row=("area", "number")).reset_index("row").reset_coords()
         source = provenance(command=command_line(), recipe=record["recipe"])
         with all_or_none(folder) as aside:
-            write_netcdf(dataset, aside / "plan.nc", source)
-            write_csv(rows, aside / "plan.csv", dimension="row")
-            write_json(record, aside / "plan.json", source)
+            write_netcdf(dataset, aside / "inference.nc", source)
+            write_csv(rows, aside / "inference.csv", dimension="row")
+            write_json(record, aside / "inference.json", source)
     if answer.json:
         emit(record)
     else:
@@ -120,7 +120,7 @@ def _planned(job: InferJob, plan: JointPlan, folder: Path | None, answer: Answer
                 for p, w in zip(plan.pressures, plan.without, strict=True)
             ]
             print_table(["without the load of", f"{written(float(plan.areas[0]), 'm2')}, one joint"], left)
-    answer.finish(folder, ("plan.csv", "plan.json", "plan.nc"), job, plan)
+    answer.finish(folder, ("inference.csv", "inference.json", "inference.nc"), job, plan)
 
 
 def _joints(area: float, number: int) -> str:

@@ -86,10 +86,8 @@ def read_measurements(
             "surface",
         )
     if surface is not None and surface not in stated:
-        known = ", ".join(map(repr, stated)) or "none"
-        raise InputError(
-            f"no container states a surface {surface!r}", f"give one of these, or none: {known}", "surface"
-        )
+        remedy = f"choose from {', '.join(map(repr, stated))}" if stated else "leave it out"
+        raise InputError(f"no container states a surface {surface!r}", remedy, "surface")
     places = [place for place in places if surface is None or place.surface == surface]
     names = [place.name for place in places]
     if not places:
@@ -119,15 +117,17 @@ def read_measurements(
 
 
 def _files(source: _PathLike | Sequence[_PathLike]) -> tuple[list[Path], list[str]]:
-    """Return the files to read, and the names of those of a folder whose ending is not that of a map."""
-    if not isinstance(source, str | os.PathLike):
-        return [Path(each) for each in source], []
-    path = Path(source)
-    if not path.is_dir():
-        return [path], []
-    inside = sorted(each for each in path.iterdir() if each.is_file() and not each.name.startswith("."))
-    known = [each for each in inside if each.suffix.casefold() in READERS]
-    return known, [each.name for each in inside if each not in known]
+    """Return the files to read, and the names of those in folders whose ending is not that of a map."""
+    known, left_out = [], []
+    for path in map(Path, [source] if isinstance(source, str | os.PathLike) else source):
+        if not path.is_dir():
+            known.append(path)
+            continue
+        inside = sorted(each for each in path.iterdir() if each.is_file() and not each.name.startswith("."))
+        maps = [each for each in inside if each.suffix.casefold() in READERS]
+        known += maps
+        left_out += [each.name for each in inside if each not in maps]
+    return known, left_out
 
 
 def _places(path: Path) -> list[_Place]:
