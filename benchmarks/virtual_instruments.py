@@ -1,4 +1,4 @@
-"""How often intervals from maps of imperfect instruments hold the truth: docs/concepts/virtual-instruments.md.
+"""How often intervals from maps of imperfect instruments hold the truth: docs/concepts/many-maps.md.
 
 In each repetition a new surface of one spectrum is measured at four places by virtual instruments: an optical one whose
 resolution is stated 20 % wrong, one with noise, a blunt tip, one that adds spikes, and one that tilts its maps. The
