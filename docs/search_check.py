@@ -67,6 +67,7 @@ QUESTIONS = {
     "prepare a surface": "how-to/preparing",
     "shift of two faces": "how-to/preparing",
     "many maps of one surface": "how-to/many-measurements",
+    "how spectra are combined": "concepts/many-maps",
     "what stiffness shows of a surface": "concepts/what-stiffness-shows",
     "how spikes are recognised": "concepts/spikes",
     "json output": "reference/json-output",

@@ -40,7 +40,7 @@ DIRECTIONAL = rc.DirectionalSpectrum(lambda qy, qx: 1 / (1 + qy**2 + qx**2))
 _BINS = np.geomspace(4e5, 1.6e6, 5)
 _TENTHS = np.full(5, 0.1)
 MEASURED = rc.CombinedSpectrum(
-    *(_BINS, 1e-26 * _BINS / _BINS, "C2D", _TENTHS, _TENTHS, 90 * _TENTHS, ("map",), _TENTHS[None]),
+    *(_BINS, 1e-26 * _BINS / _BINS, "C2D", _TENTHS, _TENTHS, _TENTHS, 90 * _TENTHS, ("map",), _TENTHS[None]),
     *(4e5, 1.6e6, (), ()),
 )
 BALL = rc.shapes.paraboloid(rc.Grid((64, 64), 1e-6), radius=1e-4)

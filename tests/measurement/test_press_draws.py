@@ -1,5 +1,6 @@
 """Intervals of a contact from surfaces that a measured spectrum allows."""
 
+import dataclasses
 import math
 
 import numpy as np
@@ -7,7 +8,7 @@ import pytest
 from scipy.stats import binom
 
 import roughcontact as rc
-from roughcontact.measurement.press_draws import NUMBERS
+from roughcontact.measurement.press_draws import NUMBERS, _curves, _shared_error
 
 SIZE, SHORTEST, MODULUS, PRESSURE = 32e-6, 4e-6, 1e9, 1e6
 SCATTER, ERROR = 0.9, 0.6  # of ln C
@@ -25,7 +26,17 @@ def spectrum(longest=SIZE, shortest=SHORTEST, error=ERROR, spread=SCATTER, off=0
     q = np.sqrt(edges[1:] * edges[:-1])
     full = np.full(q.size, 1.0)
     return rc.CombinedSpectrum(
-        *(q, law(q) * np.exp(off), kind, error * full, spread * full, np.inf * full, ("a",), law(q)[None]),
+        *(
+            q,
+            law(q) * np.exp(off),
+            kind,
+            error * full,
+            0 * full,
+            spread * full,
+            np.inf * full,
+            ("a",),
+            law(q)[None],
+        ),
         *(*ends, (), ()),
     )
 
@@ -80,7 +91,7 @@ def test_the_next_specimen_lies_in_the_interval_as_often_as_stated():
 
 
 def test_the_mean_is_known_better_than_the_next_specimen():
-    """Of the mean only the error of the spectrum counts, and a sixteenth of the variance of single surfaces."""
+    """Of the mean count the error of the spectrum and that of the mean of all surfaces, two of each of twelve draws."""
     sd = {}
     for of, error in (("specimen", 0.0), ("mean", 0.0), ("mean", 0.6)):
         found = rc.press_draws(
@@ -88,12 +99,27 @@ def test_the_mean_is_known_better_than_the_next_specimen():
         )
         sd[of, error] = np.std(np.log(found.values["mean_gap"]), ddof=1)
     assert rc.press_draws(spectrum(), MODULUS, PRESSURE, SIZE, rng=1).level == pytest.approx(0.9)
-    # With 12 draws the ratio of two variances lies within 1/5 and 5 with a probability of 0.99 (F of 11 and 11).
+    # With 12 draws the ratio of two variances, the lower one a bootstrap of twelve pairs, lies within 1/9 and 9 with a
+    # probability of 0.99: chi-squared of 11 over the product of two of them.
     ratio = (sd["specimen", 0.0] / sd["mean", 0.0]) ** 2
-    assert 16 / 5 < ratio < 16 * 5
+    assert 24 / 9 < ratio < 24 * 9
     # ln h has half the error of ln C if all waves have it; they have it over an octave, which holds most of the height.
     assert 0.3 * 0.3 < sd["mean", 0.6] < 0.3 * 2
     assert rc.press_draws(spectrum(), MODULUS, PRESSURE, SIZE, draws=39, rng=1).level == pytest.approx(0.95)
+
+
+def test_errors_of_waves_are_independent_between_bins_and_the_others_are_not():
+    """Of 4000 draws a correlation has a standard error of at most 1/sqrt(4000) = 0.016, and a variance 0.022."""
+    whole = spectrum(error=0.3)
+    q = whole.wavenumber
+    for waves, expected in ((0.0, math.exp(-((math.log(q[1] / q[0]) / math.log(2)) ** 2))), (0.3, 0.0)):
+        one = dataclasses.replace(whole, log_waves=np.full(q.size, waves))
+        shared, _ = _shared_error(one, "mean")
+        random = np.random.default_rng(1)
+        off = np.array([np.log(density(q) / law(q)) for density in _curves(one, shared, 4000, random)])
+        np.testing.assert_allclose(off.std(axis=0), 0.3, rtol=4 * 0.5 * 0.022)
+        found = np.mean([np.corrcoef(off[:, k], off[:, k + 1])[0, 1] for k in range(q.size - 1)])
+        assert found == pytest.approx(expected, abs=4 * 0.016)
 
 
 def test_a_number_that_needs_scales_beyond_the_band_is_refused_alone():

@@ -11,11 +11,11 @@ from followed import follow, row
 Q = np.geomspace(2e5, 2e6, 6)
 ONE = np.full(6, 0.1)
 SPECTRUM = rc.CombinedSpectrum(
-    *(Q, 1e-26 * (Q / Q[0]) ** -3.6, "C2D", ONE, ONE, 9 * ONE, ("map",), ONE[None], 2e5, 2e6, (), ())
+    *(Q, 1e-26 * (Q / Q[0]) ** -3.6, "C2D", ONE, ONE, ONE, 9 * ONE, ("map",), ONE[None], 2e5, 2e6, (), ())
 )
 UNKNOWN = replace(SPECTRUM, log_spread=ONE * np.nan)
 NARROW = replace(SPECTRUM, **{name: getattr(SPECTRUM, name)[:1] for name in (
-    "wavenumber", "density", "log_error", "log_spread", "freedom"
+    "wavenumber", "density", "log_error", "log_waves", "log_spread", "freedom"
 )})  # fmt: skip
 
 

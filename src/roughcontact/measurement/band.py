@@ -9,13 +9,13 @@ import numpy as np
 from roughcontact.measurement.bins import binned
 from roughcontact.measurement.instrument import Instrument
 from roughcontact.measurement.signal import Signal
+from roughcontact.measurement.tip_image import tip_limit
 from roughcontact.surface.surface import Surface
 
 __all__ = ["PER_DECADE", "bin_centres", "reliable_band"]
 
 PER_DECADE = 10  # bins to a factor of ten in wavenumber
 _CELLS = 4.0  # in the shortest wave
-_BLUNT = 0.5  # of the tip's curvature: sharper summits are its image (Sanner et al., doi 10.1016/j.apsadv.2021.100190)
 
 
 def bin_centres(least: float, most: float) -> np.ndarray[tuple[int], np.dtype[np.float64]]:
@@ -37,7 +37,7 @@ def reliable_band(
     shortest = {
         "cells": _CELLS * max(surface.grid.spacing),
         "resolution": (2 if across else 1) * (instrument.resolution or 0.0),
-        "tip": 0.0 if instrument.tip_radius is None else _image_of_tip(surface, instrument.tip_radius),
+        "tip": tip_limit(surface, instrument.tip_radius),
         "noise": 0.0,
     }
     longest = 2 * math.pi / signal.spectrum.q_min
@@ -49,13 +49,3 @@ def reliable_band(
             shortest["noise"] = 2 * math.pi / (centres[lost[0]] * 10 ** (-0.5 / PER_DECADE))
     limit = max(shortest, key=lambda name: shortest[name])
     return (shortest[limit], longest), limit
-
-
-def _image_of_tip(surface: Surface, radius: float) -> float:
-    """Return twice the lag along x above which no second difference is as negative as that of the tip [m]."""
-    heights, step = surface.heights, surface.grid.spacing[-1]
-    for lag in range(1, (heights.shape[-1] - 1) // 2 + 1):
-        second = heights[..., 2 * lag :] - 2 * heights[..., lag:-lag] + heights[..., : -2 * lag]
-        if second.min() > -_BLUNT * (lag * step) ** 2 / radius:
-            return 2 * lag * step
-    return surface.grid.lengths[-1]

@@ -20,8 +20,8 @@ _REACH = 0.25  # decades over which the exponent of a spectrum is averaged
 class Binned(NamedTuple):
     """Values of each map (rows) in each bin (columns), NaN where a map has no reliable wave.
 
-    `log` is ln C, `variance` its variance by the finite number of waves, `blur` the standard deviation by the stated
-    resolution, `ratio` the noise of one map over the signal.
+    `log` is ln C, `variance` its variance by the finite number of waves, `blur` the standard deviation by the
+    instrument, `ratio` the noise of one map over the signal.
     """
 
     log: Array

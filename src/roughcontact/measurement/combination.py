@@ -102,8 +102,9 @@ def combine(measurements: Sequence[Measurement], left_out: Sequence[str] = ()) -
     if (single := int((count[some] == 1).sum())) > 0:
         text = f"{single} of {some.sum()} bins hold one map only: their scatter between places is that of neighbours"
         notes.append(Note(Rank.LIMITED, f"{text}, or not known"))
+    waves = np.sqrt(alone[some])
     return CombinedSpectrum(
-        *(centres[some], np.exp(mean[some]), kind, error[some], spread[some], freedom[some]),
+        *(centres[some], np.exp(mean[some]), kind, error[some], waves, spread[some], freedom[some]),
         *(names, np.exp(found.log[:, some]), q_min, q_max, outliers, in_order(notes)),
     )
 

@@ -32,6 +32,9 @@ class CombinedSpectrum:
     kind : {"C2D", "C1D"}
     log_error : array, shape (n,)
         Standard deviation of the mean ``ln density``.
+    log_waves : array, shape (n,)
+        Its part by the finite number of waves, which is independent between bins. The other part, by the scatter
+        between places and by the instruments, is not.
     log_spread : array, shape (n,)
         Standard deviation of ``ln density`` between places, the inhomogeneity of the surface. NaN where a single map
         holds the waves.
@@ -64,6 +67,7 @@ class CombinedSpectrum:
     density: Array
     kind: Literal["C2D", "C1D"]
     log_error: Array
+    log_waves: Array
     log_spread: Array
     freedom: Array
     names: tuple[str, ...]
@@ -131,6 +135,7 @@ class CombinedSpectrum:
         data = {
             "density": described(along, self.density, f"power spectrum {self.kind}", unit),
             "log_error": described(along, self.log_error, "standard deviation of the mean ln density"),
+            "log_waves": described(along, self.log_waves, "part of log_error by the number of waves"),
             "log_spread": described(
                 along, self.log_spread, "standard deviation of ln density between places"
             ),

@@ -117,9 +117,10 @@ class Measurements:
 
         In each bin of a tenth of a decade, ln C is averaged over places with the weights of random effects, from the
         number of waves and the scatter between places (DerSimonian and Laird). The noise is subtracted and the stated
-        resolution corrected; its relative error of 10 % is part of ``CombinedSpectrum.log_error``. A measurement more
-        than 3.5 standard deviations from the median in three neighbouring bins is left out of the mean and named.
-        If there are profiles, the spectrum is C1D, and maps count by their rows.
+        resolution corrected. Its relative error of 15 % is part of ``CombinedSpectrum.log_error``; so is a change of C
+        by a tip, of 10 % at the shortest wave that the tip follows. A measurement more than 3.5 standard deviations
+        from the median in three neighbouring bins is left out of the mean and named. If there are profiles, the
+        spectrum is C1D, and maps count by their rows.
 
         Returns
         -------

@@ -32,7 +32,7 @@ CELLS = 6  # of the shortest wave
 LARGEST = 2048  # cells a side
 WAVES = 4  # of the shortest along a side, at least
 OCTAVE = math.log(2)  # over which errors of ln C are correlated
-PHASES = 16  # surfaces of one spectrum, over which the mean is taken
+PAIRS = 2  # surfaces of a draw by its spectrum and, with the same waves, by the measured one, if the mean is asked for
 NORMAL = 1e6  # degrees of freedom of a Gaussian, for which the quantile is finite
 ROUNDING = 1e-9
 NUMBERS = ("contact_fraction", "interfacial_stiffness_per_area", "mean_gap")
@@ -123,7 +123,7 @@ def press_draws(
         Their smallest and largest value are the interval: 90 % for 19 draws, 95 % for 39.
     of : {"specimen", "mean"}
         The next specimen, whose spectrum scatters between places and whose waves are new; or the mean over specimens
-        of the mean spectrum, to which only the error of the spectrum counts: it is taken over 16 surfaces a draw.
+        of the mean spectrum, to which only the error of the spectrum counts: each draw takes four contacts.
     rng : int, numpy.random.Generator, SeedSequence, BitGenerator or None
         Source of errors and waves.
 
@@ -141,9 +141,14 @@ def press_draws(
 
     Notes
     -----
-    The error of ln C is Gaussian (Student's t for few degrees of freedom) with the covariance
-    ``s s' exp(-(ln q - ln q')^2/(ln 2)^2)``: correlated over an octave. s is ``log_error``; for the next specimen its
-    square and that of ``log_spread`` are added. The shortest wave has six cells.
+    The error of ln C is Gaussian (Student's t for few degrees of freedom). Its part ``log_waves`` is independent
+    between bins. The rest of ``log_error`` has the covariance ``s s' exp(-(ln q - ln q')^2/(ln 2)^2)``: correlated
+    over an octave. For the next specimen the square of ``log_spread`` is added to its square. The shortest wave has
+    six cells.
+
+    A mean is that of all surfaces of the measured spectrum plus the difference that the error of a draw makes on two
+    of them, so that the scatter of surfaces does not widen the interval. The error of the mean of all is added by
+    bootstrap.
 
     For draws from the distribution of the next specimen, each rank of it among them is equally probable. Therefore it
     lies between the extremes of n with the probability (n - 1)/(n + 1), whatever the distribution.
@@ -162,7 +167,7 @@ def press_draws(
     >>> found = rc.press_draws(spectrum, 1e9, pressure=1e6, size=32e-6, rng=1)
     >>> low, high = found.intervals["mean_gap"]
     >>> f"{low * 1e9:.0f} to {high * 1e9:.0f} nm at {found.level:.0%}, by {found.rests_on['mean_gap']}"
-    '6 to 27 nm at 90%, by waves from 3.2e-05 m to 4e-06 m'
+    '5 to 42 nm at 90%, by waves from 3.2e-05 m to 4e-06 m'
     """
     if spectrum.kind != "C2D":
         raise about(
@@ -178,26 +183,42 @@ def press_draws(
     if whole(draws, "draws") < 2:
         raise about("draws", "must be at least 2", "give 19 for an interval of 90 %")
     scales = scales_of(spectrum, positive_scalar(size, "size [m]"))
-    grid, (error, notes), random = _grid(size, scales.shortest), _log_error(spectrum, of), as_generator(rng)
-    found: list[dict[str, float]] = []
-    for density in tracked(_curves(spectrum, error, draws, random), "Pressing draws", "draws", draws):
-        rows = []
-        for _ in range(PHASES if of == "mean" else 1):
-            surface = synthesise(grid, density, random, amplitudes="gaussian")
-            solution = press(surface, modulus, pressure=pressure)
-            if not solution.status.converged:
-                raise ConvergenceError(solution)
-            numbers = {name: float(getattr(solution, name)) for name in NUMBERS}
-            rows.append(numbers | measured_at(solution, measures, NUMBERS))
-        found.append({name: float(np.mean([row[name] for row in rows])) for name in rows[0]})
-    refused = {name: why for name in found[0] if (why := scales.lacking(name))}
+    grid, (shared, notes), random = (
+        _grid(size, scales.shortest),
+        _shared_error(spectrum, of),
+        as_generator(rng),
+    )
+
+    def pressed(density: Callable[[Array], Array], waves: RngLike) -> dict[str, float]:
+        solution = press(synthesise(grid, density, waves, amplitudes="gaussian"), modulus, pressure=pressure)
+        if not solution.status.converged:
+            raise ConvergenceError(solution)
+        numbers = {name: float(getattr(solution, name)) for name in NUMBERS}
+        return numbers | measured_at(solution, measures, NUMBERS)
+
+    measured = partial(_density, *band_nodes(spectrum))
+    found, base = [], []
+    for density in tracked(_curves(spectrum, shared, draws, random), "Pressing draws", "draws", draws):
+        if of == "mean":
+            waves = random.integers(2**63, size=PAIRS)
+            found.append(_mean([pressed(density, int(seed)) for seed in waves]))
+            base.append(_mean([pressed(measured, int(seed)) for seed in waves]))
+        else:
+            found.append(pressed(density, random))
+    columns = {name: np.array([row[name] for row in found]) for name in found[0]}
+    if of == "mean":
+        again = random.integers(draws, size=(draws, draws))
+        for name, column in columns.items():
+            level = np.array([row[name] for row in base])
+            columns[name] = column - level + level[again].mean(axis=1)
+    refused = {name: why for name in columns if (why := scales.lacking(name))}
     lacking = [Note(Rank.LIMITED, f"{name} is refused: {why}") for name, why in refused.items()]
-    given = [name for name in found[0] if name not in refused]
+    given = [name for name in columns if name not in refused]
     return PressedDraws(
         of,
         pressure,
         size,
-        {name: np.array([row[name] for row in found]) for name in given},
+        {name: columns[name] for name in given},
         {name: scales.rests_on(name) for name in given},
         refused,
         (*in_order([*notes, *lacking]), *spectrum.notes),
@@ -222,10 +243,16 @@ def _grid(size: float, shortest: float) -> Grid:
     return Grid((cells, cells), size / cells, periodic=True)
 
 
-def _log_error(spectrum: CombinedSpectrum, of: Target) -> tuple[Array, list[Note]]:
-    """Return the standard deviation of ln C of a draw at each bin."""
+def _mean(rows: Sequence[Mapping[str, float]]) -> dict[str, float]:
+    """Return the mean of each number."""
+    return {name: float(np.mean([row[name] for row in rows])) for name in rows[0]}
+
+
+def _shared_error(spectrum: CombinedSpectrum, of: Target) -> tuple[Array, list[Note]]:
+    """Return the standard deviation of ln C of a draw at each bin, without the part that bins do not share."""
+    error = np.sqrt(np.maximum(spectrum.log_error**2 - spectrum.log_waves**2, 0.0))
     if of == "mean":
-        return spectrum.log_error, []
+        return error, []
     known = np.isfinite(spectrum.log_spread)
     if not known.any():
         raise InputError(
@@ -237,11 +264,11 @@ def _log_error(spectrum: CombinedSpectrum, of: Target) -> tuple[Array, list[Note
     spread = np.interp(q, q[known], spectrum.log_spread[known])
     text = f"the scatter between places is not known in {np.sum(~known)} of {q.size} bins: that of the nearest is used"
     notes = [] if known.all() else [Note(Rank.LIMITED, text)]
-    return np.hypot(spectrum.log_error, spread), notes
+    return np.hypot(error, spread), notes
 
 
 def _curves(
-    spectrum: CombinedSpectrum, error: Array, draws: int, random: np.random.Generator
+    spectrum: CombinedSpectrum, shared: Array, draws: int, random: np.random.Generator
 ) -> Iterator[Callable[[Array], Array]]:
     """Yield spectra C(q) [m^4] drawn about the measured one, zero beyond its band."""
     nodes, mean = band_nodes(spectrum)
@@ -252,8 +279,9 @@ def _curves(
     freedom = np.minimum(spectrum.freedom, NORMAL)
     for _ in range(draws):
         wider = np.sqrt(freedom / chi2.ppf(random.uniform(), freedom))
-        off = np.interp(nodes, q, error * wider * (root @ random.standard_normal(q.size)))
-        yield partial(_density, nodes, mean + off)
+        own, common = random.standard_normal((2, q.size))
+        off = wider * (spectrum.log_waves * own + shared * (root @ common))
+        yield partial(_density, nodes, mean + np.interp(nodes, q, off))
 
 
 def _density(nodes: Array, values: Array, wavenumber: Array) -> Array:

@@ -13,6 +13,7 @@ from scipy.special import polygamma
 
 from roughcontact.evaluation.noise import Noise
 from roughcontact.measurement.instrument import Instrument
+from roughcontact.measurement.tip_image import tip_limit
 from roughcontact.surface.analysis.power import PowerSpectrum
 from roughcontact.surface.analysis.spectra import power_spectrum
 from roughcontact.surface.surface import Surface
@@ -20,7 +21,10 @@ from roughcontact.validation import Array
 
 __all__ = ["RESOLUTION_ERROR", "Signal", "assumed_noise", "signal_of"]
 
-RESOLUTION_ERROR = 0.1  # relative standard deviation of a stated resolution
+# Relative standard deviation of a stated resolution, for which one that is 20 % wrong is covered, and that of C at the
+# limit of a tip, in proportion to q: benchmarks/virtual_instruments.py.
+RESOLUTION_ERROR = 0.15
+_TIP_ERROR = 0.1
 _FLAT = -0.5  # exponent of a spectrum from which on noise is taken for white
 _STEEPEST = {"C2D": -2.0, "C1D": -1.0}  # of rough surfaces the flattest, H = 0 (thesis, eq. 2.13)
 
@@ -40,7 +44,7 @@ class Signal:
     repeats : int
         Number of maps of one place.
     log_blur : array, shape (n,)
-        Standard deviation of ``ln response`` by the error of the stated resolution.
+        Standard deviation of ln C by the error of the stated resolution and by a tip.
     """
 
     spectrum: PowerSpectrum
@@ -88,7 +92,9 @@ def signal_of(
     blur = (
         np.zeros(q.size) if instrument.resolution is None else (instrument.resolution * q / 2 / math.pi) ** 2
     )
-    return Signal(spectrum, floor, 4.0**-blur, count, 2 * math.log(4) * blur * RESOLUTION_ERROR)
+    tip = _TIP_ERROR * tip_limit(surfaces[0], instrument.tip_radius) * q / 2 / math.pi
+    error = np.hypot(2 * math.log(4) * blur * RESOLUTION_ERROR, tip)
+    return Signal(spectrum, floor, 4.0**-blur, count, error)
 
 
 def _density(noise: Noise, surface: Surface, spectrum: PowerSpectrum) -> Array:
