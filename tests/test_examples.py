@@ -13,6 +13,8 @@ import xarray
 import roughcontact as rc
 from tables import read_table
 
+pytestmark = pytest.mark.slow
+
 EXAMPLES = Path(__file__).parent.parent / "examples"
 
 
