@@ -9,6 +9,7 @@
 #   make ccx                install what those in CalculiX need, if it can be had: ccx, where apt-get can install it
 #   make mpi                the tests on several processes, if mpi4py and an MPI can be had
 #   make nox                the tests with the kernels of other processors (ARGS="-s tests lowest": see noxfile.py)
+#   make quick              the tests without the slow ones
 #   make check              in two minutes: style, prose, types, and the tests of the whole house and of what was changed
 #   make lint               style, prose, and types on Linux, macOS and Windows
 #   make docs               build the site of the documentation in build/docs
@@ -32,6 +33,8 @@ INSTALL = -m pip install -qq --disable-pip-version-check --only-binary=:all:
 # Without a network six tries, pip's own number, take as long as a hang.
 export PIP_RETRIES ?= 2
 export PIP_DEFAULT_TIMEOUT ?= 15
+# Hundreds of tests start the program, which would be compiled anew each time.
+unexport PYTHONDONTWRITEBYTECODE
 # PyTorch built for processors alone, which only some indices and folders of wheels hold; the common one is several GB.
 TORCH ?= torch==2.13.0+cpu
 JAX ?= jax==0.10.2
@@ -40,11 +43,11 @@ APT = DEBIAN_FRONTEND=noninteractive timeout 120 apt-get install -y -qq
 # A process a core, so one thread for the linear algebra of each.
 ONE_THREAD := OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 MKL_NUM_THREADS=1
 
-.PHONY: help demo thesis test browser ccx mpi nox check lint docs bench clean
+.PHONY: help demo thesis test quick browser ccx mpi nox check lint docs bench clean
 .DEFAULT_GOAL := help
 
 help:
-	@sed -n '3,18s/^# *//p' Makefile
+	@sed -n '3,19s/^# *//p' Makefile
 
 # A file of the user's may be in any format that instruments write.
 demo: $(if $(FILE),$(ENV)/.ready-to-read,$(ENV)/.ready)
@@ -58,6 +61,10 @@ thesis: $(ENV)/.ready
 test: $(ENV)/.ready-to-test
 	@$(ONE_THREAD) $(BIN)/python -m pytest -n auto $(ARGS) \
 	  && echo "test: OK" || { echo "test: FAILED"; exit 1; }
+
+quick: $(ENV)/.ready-to-test
+	@$(ONE_THREAD) $(BIN)/python -m pytest -q -n auto -m "not slow" $(ARGS) \
+	  && echo "quick: OK" || { echo "quick: FAILED"; exit 1; }
 
 # What the tests in a browser need beside it; where it cannot be had they are skipped, and say so.
 browser: $(ENV)/.ready-to-test
@@ -88,10 +95,10 @@ check: $(ENV)/.ready-to-test
 	  && $(ONE_THREAD) $(BIN)/python -m pytest -q -n auto $$($(BIN)/python .ci/quick.py) $(ARGS) \
 	  && echo "check: OK" || { echo "check: FAILED"; exit 1; }
 
-# Types on one system after the other, each with a cache of its own.
+# Types on all systems at once, each with its own cache.
 lint: $(ENV)/.ready-to-test
-	@$(STYLE) && for system in linux darwin win32; do \
-	    $(BIN)/python -m mypy --platform $$system --cache-dir .mypy_cache/$$system || exit 1; done \
+	@$(STYLE) && printf '%s\n' linux darwin win32 \
+	    | xargs -P 3 -I SYSTEM $(BIN)/python -m mypy --platform SYSTEM --cache-dir .mypy_cache/SYSTEM \
 	  && echo "lint: OK" || { echo "lint: FAILED"; exit 1; }
 
 docs: $(ENV)/.ready-to-write

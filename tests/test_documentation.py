@@ -35,7 +35,8 @@ FEWER = {
     },
     **{"--time-tolerance 1e-2": "--time-tolerance 5e-2", "10m/s:20": "10m/s:4", "1N:100N:30": "1N:100N:5"},
     **{"--samples 4 ": "--samples 1 ", "--samples 8": "--samples 2"},
-    **{"points = 64": "points = 32", "samples = 4": "samples = 1"},
+    **{"points = 64": "points = 32", "samples = 4": "samples = 1", "points = 257": "points = 65"},
+    **{"hurst=0.2,0.4,0.6,0.8,1 ": "hurst=0.2,1 ", "rms=0.2um,0.4um,0.6um,0.8um,1um": "rms=0.2um,1um"},
 }
 # Libraries that a block may want and a machine may lack.
 OPTIONAL = {"jax": "import jax\n", "torch": "import torch\n", "tqdm": "rc.progress.bar("}
@@ -100,8 +101,9 @@ def test_python_runs_as_printed(cells, folder):
             assert out.getvalue() == printed
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("lines", list(commands()))
-def test_commands_run_as_printed(lines, folder):
+def test_commands_run_as_printed(lines, folder, undrawn):
     for line in lines:
         answer = CliRunner().invoke(app, shlex.split(fewer(line))[1:])
         assert answer.exit_code == 0, f"{line}\n{answer.stderr}"

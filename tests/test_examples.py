@@ -1,10 +1,15 @@
 """Every script in examples/ runs, and one number of each is what it must be."""
 
+import io
 import re
+import runpy
 import signal
 import subprocess
 import sys
+import warnings
+from contextlib import redirect_stderr, redirect_stdout
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -12,6 +17,8 @@ import xarray
 
 import roughcontact as rc
 from tables import read_table
+
+pytestmark = pytest.mark.slow
 
 EXAMPLES = Path(__file__).parent.parent / "examples"
 
@@ -124,22 +131,36 @@ def test_example(name, tmp_path):
     check(answer.stdout, tmp_path)
 
 
-def demo(folder, *words):
-    words = [sys.executable, str(EXAMPLES / "demo.py"), *words]
-    return subprocess.run(words, capture_output=True, encoding="utf-8", cwd=folder, check=False)
+@pytest.fixture
+def demo(undrawn, tmp_path, monkeypatch):
+    """Run the demo in this process and in an empty folder; `test_example` starts it as its users do."""
+    monkeypatch.chdir(tmp_path)
+
+    def run(*words):
+        monkeypatch.setattr(sys, "argv", ["demo.py", *words])
+        status, out, err = 0, io.StringIO(), io.StringIO()
+        with warnings.catch_warnings(), redirect_stdout(out), redirect_stderr(err):
+            try:
+                runpy.run_path(str(EXAMPLES / "demo.py"), run_name="__main__")
+            except SystemExit as end:  # whose text Python prints, with status 1
+                status = 1
+                err.write(f"{end.code}\n")
+        return SimpleNamespace(returncode=status, stdout=out.getvalue(), stderr=err.getvalue())
+
+    return run
 
 
-def test_the_demo_takes_a_file_of_the_user(tmp_path):
+def test_the_demo_takes_a_file_of_the_user(demo, tmp_path):
     np.save(tmp_path / "part.npy", np.random.default_rng(1).random((24, 48)))
     words = ("--file", "part.npy", "--out", "out")
-    refused = demo(tmp_path, *words)
+    refused = demo(*words)
     assert refused.returncode == 1
     assert refused.stderr.startswith("Error: part.npy: it states no unit")
     assert refused.stderr.endswith('with make: ARGS="--unit nm --size 10um"\n')
-    unknown = demo(tmp_path, *words, "--unit", "second", "--size", "1um")
+    unknown = demo(*words, "--unit", "second", "--size", "1um")
     assert unknown.stderr.startswith("Error: unit 'second'")
     assert not (tmp_path / "out").exists()
-    answer = demo(tmp_path, *words, "--unit", "nm", "--size", "1um")
+    answer = demo(*words, "--unit", "nm", "--size", "1um")
     assert answer.returncode == 0, answer.stderr
     assert "surface: 24 x 48 cells" in answer.stdout
     assert answer.stdout.startswith("Pressed with the reduced modulus E* = 57.47 GPa of steel")
@@ -149,24 +170,24 @@ def test_the_demo_takes_a_file_of_the_user(tmp_path):
     assert answer.stderr.count("\n") == answer.stderr.count("Note: ")
 
 
-def test_the_demo_takes_bodies_by_name(tmp_path):
+def test_the_demo_takes_bodies_by_name(demo, tmp_path):
     np.save(tmp_path / "part.npy", np.random.default_rng(1).random((8, 8)))
     words = ("--file", "part.npy", "--out", "out", "--unit", "nm", "--size", "1um", "--materials")
-    answer = demo(tmp_path, *words, "steel,copper")
+    answer = demo(*words, "steel,copper")
     assert "of steel (AISI 1045, cold drawn) on copper (" in answer.stdout
     for names, complaint in (
         ("steel", "name both bodies"),
         ("steel,cheese", "there is no material named 'cheese'"),
     ):
-        refused = demo(tmp_path, *words, names)
+        refused = demo(*words, names)
         assert refused.returncode == 1
         assert refused.stderr.splitlines()[-1].startswith(f"Error: --materials: {complaint}")
 
 
 @pytest.mark.parametrize("slope", [0.0, 0.1])
-def test_the_demo_says_that_a_file_is_flat(tmp_path, slope):
+def test_the_demo_says_that_a_file_is_flat(demo, tmp_path, slope):
     np.save(tmp_path / "flat.npy", slope * np.arange(24.0) + np.full((24, 24), 3.3))
-    answer = demo(tmp_path, "--file", "flat.npy", "--unit", "nm", "--size", "1um")
+    answer = demo("--file", "flat.npy", "--unit", "nm", "--size", "1um")
     assert answer.returncode == 1
     assert answer.stderr.startswith("Error: flat.npy is flat")
     assert not (tmp_path / "out").exists()

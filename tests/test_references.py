@@ -30,6 +30,7 @@ def test_loops_are_what_they_were(number, stored):
     np.testing.assert_array_equal(spots, stored[f"contact{number}"])
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", references.PATHS)
 def test_states_and_jumps_of_adhesive_contact_are_what_they_were(number, stored):
     found, jumps = references.path(number)

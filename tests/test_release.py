@@ -87,7 +87,7 @@ def test_the_workflow_does_what_the_check_of_a_checkout_does():
     for step in ("ruff check .", "ruff format --check .", "pytest -n auto"):
         assert f"python -m {step}" in lint
         assert f"run: python -m {step}\n" in WORKFLOW
-    systems = re.search(r"for system in (.*); do", lint)[1].split()
+    systems = re.search(r"printf '%s\\n' (.*) \\\n", lint)[1].split()
     assert systems == re.findall(r"run: python -m mypy --platform (\w+)\n", WORKFLOW)
     assert len(systems) == 3
 

@@ -329,6 +329,7 @@ def answers(rough):
     return solution.pressure.tobytes(), solution.depth
 
 
+@pytest.mark.slow
 def test_eight_threads_press_as_one_does(two_blas_threads):
     """Each presses 200 times: all bits are equal, and BLAS has its threads afterwards."""
     before, samples = two_blas_threads(), surfaces((10, 16))
@@ -570,6 +571,7 @@ def test_processes_forked_while_others_press_all_finish():
     )
 
 
+@pytest.mark.slow
 @forks
 def test_a_forked_process_shares_kernels_with_threads_of_its_own():
     """Whoever forks while another leads: nobody is there to be waited for, and the bits are those of the parent."""

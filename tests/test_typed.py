@@ -32,6 +32,7 @@ WRONG = (
 )
 
 
+@pytest.mark.slow
 @pytest.mark.skipif(importlib.util.find_spec("mypy") is None, reason="mypy is not installed")
 def test_the_types_of_all_public_names_are_known(tmp_path):
     """As mypy reveals them in a script of a user, in which it also sees a misspelt name."""

@@ -4,7 +4,10 @@ import subprocess
 import sys
 from pathlib import Path
 
+import pytest
 
+
+@pytest.mark.slow
 def test_every_module_and_every_test_is_imported_without_the_names_of_posix(tmp_path):
     """The program sees what it looks for: of three more files, two ask for such a name as they are imported."""
     asking = {

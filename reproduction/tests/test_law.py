@@ -85,6 +85,7 @@ def script():
     sys.path.remove(str(folder))
 
 
+@pytest.mark.slow
 def test_the_pages_show_the_ensembles_that_are_there(script):
     text = "".join(page.read_text(encoding="utf-8") for page in script.PAGES)
     found = script.e3() | script.e7()

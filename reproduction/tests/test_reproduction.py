@@ -65,6 +65,7 @@ def heading(name):
     return f"Figure {name[3:]}" if name.startswith("fig") else f"Outlook, {name.removeprefix('outlook-')}"
 
 
+@pytest.mark.slow
 def test_the_pages_are_what_the_script_writes(script, page, figures):
     assert script.page() == page
     assert script.figures_page() == figures

@@ -186,6 +186,7 @@ def test_notes_stand_in_the_order_of_their_rank():
     assert off.notes == (last,)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("cells", "noted"), [(10, True), (22, False)])
 def test_the_error_of_the_grid_on_the_pull_off_force_is_noted(cells, noted):
     """A sphere with so many cells in its contact radius at the pull-off by Johnson, Kendall and Roberts."""

@@ -1,4 +1,5 @@
 import json
+import shutil
 
 import numpy as np
 import pytest
@@ -11,10 +12,19 @@ COPPER = ("--resistivity", "17nohm*m")
 
 
 @pytest.fixture
-def curve(invoke, rough, tmp_path):
+def curve(invoke, rough, tmp_path, kept):
+    """Return the file of a curve in a folder of the test; it is computed once."""
     folder = tmp_path / "result"
-    assert invoke("curve", rough, "--forces", "1mN:1N:5", *MODULUS, "--out", folder).exit_code == 0
+    if not (kept / "curve").exists():
+        words = ("curve", rough, "--forces", "1mN:1N:5", *MODULUS, "--out", kept / "curve")
+        assert invoke(*words).exit_code == 0
+    shutil.copytree(kept / "curve", folder)
     return folder / "curve.nc"
+
+
+@pytest.fixture(scope="module")
+def kept(tmp_path_factory):
+    return tmp_path_factory.mktemp("kept")
 
 
 def test_resistance_of_a_curve(invoke, curve):

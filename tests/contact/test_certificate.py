@@ -72,6 +72,7 @@ def test_a_missed_tolerance_is_said():
     assert any("ran out of steps" in note for note in solution.notes)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", range(1, SMALL, 8))
 @pytest.mark.parametrize("share", [0.5, 0.95, 0.999])
 def test_certified_at_given_depth_up_to_full_contact(number, share):

@@ -163,6 +163,7 @@ def test_machine_code_changes_no_load(monkeypatch):
     np.testing.assert_array_equal(rc.load_range(surface, 1e9).forces, found.forces)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("hardness", [1e8, 1e6, rc.NixGao(1e6, 4e-6)])
 def test_what_flows_goes_on_until_half_of_the_map_bears(hardness):
     """Elasticity ends nothing there: what flows is kept, and its contact is as large as another."""

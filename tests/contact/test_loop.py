@@ -183,6 +183,7 @@ def test_what_makes_no_sense_is_refused(given, says):
         rc.loading_loop(plane(), MODULUS, **{"hardness": HARDNESS, "forces": FORCES} | given)
 
 
+@pytest.mark.slow
 def test_without_loads_it_finds_some_that_suit_the_surface():
     grid = rc.Grid((64, 64), 1e-6, periodic=True)
     surface = rc.self_affine(grid, hurst=0.8, rms=2e-7, rng=np.random.default_rng(1))

@@ -44,6 +44,7 @@ def peak(run):
         tracemalloc.stop()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("curve", [False, True])
 @pytest.mark.parametrize("body", BODIES)
 def test_every_load_lies_between_the_bounds(body, curve):

@@ -75,6 +75,7 @@ def covered(seed, **given):
     return inside, of
 
 
+@pytest.mark.slow
 def test_the_next_specimen_lies_in_the_interval_as_often_as_stated():
     """Estimate and specimen scatter about the same spectrum: the specimen is one more draw about the estimate.
 

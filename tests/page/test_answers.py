@@ -204,6 +204,7 @@ def test_the_table_of_a_curve_is_that_of_its_command(ask, tmp_path):
     assert rows(data.decode()) == rows((tmp_path / "out" / "curve.csv").read_text())
 
 
+@pytest.mark.slow
 def test_the_archive_holds_what_the_commands_give_and_how_to_make_it_again(ask):
     load = {"pressure": "3 MPa"}
     [(header, data)] = [each for each in ask(export, {"kind": "zip"}, {"loads": LOADS}, load=load) if each[1]]
@@ -415,6 +416,7 @@ def test_a_loop_of_surfaces_that_stick_is_that_of_the_library(ask):
     assert level["y"] == [-loop.pull_off_force] * 2
 
 
+@pytest.mark.slow
 def test_a_jump_is_a_line_of_two_places(ask):
     """Under a prescribed depth the force jumps; a chart has one value a place."""
     job = {"job": "adhesion loop", "turn": {"depth": "20nm", "points": "4"}}

@@ -24,6 +24,8 @@ import roughcontact as rc
 from roughcontact.cli.app import app
 from served import PATIENCE, ended, started
 
+pytestmark = pytest.mark.slow
+
 DROP = """([name, text]) => {
   const data = new DataTransfer();
   data.items.add(new File([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))], name));

@@ -30,7 +30,7 @@ from roughcontact.recipe.source import SOURCES, InPython
 from roughcontact.recipe.written import read_job, to_plain
 from roughcontact.threads import limit_threads, one_blas_thread
 
-pytestmark = pytest.mark.usefixtures("undrawn")
+pytestmark = [pytest.mark.usefixtures("undrawn"), pytest.mark.slow]
 JOBS = {path.stem: path for path in sorted((Path(__file__).parent / "jobs").glob("*.toml"))}
 KINDS = {
     "elastic": ("press_measured", "curve_self_affine", "curve_specified"),

@@ -161,6 +161,7 @@ def found(home):
     return found
 
 
+@pytest.mark.slow
 def test_every_command_that_prepares_has_the_option(found):
     for name, text in found["help"].items():
         assert "--median" in text, name

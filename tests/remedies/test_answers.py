@@ -754,5 +754,6 @@ def test_surfaces_that_slide(refusal):
 
 
 @pytest.mark.parametrize("refusal", ANSWERS)
-def test_answers(refusal):
+def test_answers(refusal, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)  # remedies write files
     follow(refusal)

@@ -95,11 +95,10 @@ class JointEmulator:
         beyond = (1 - share) / (1 - (SIDE[1] / LARGE) ** 2)
         mean = known @ self.mean + deviation**2 * (1 - share) / 2 + beyond * self.departure
         weights = _weights((pressure - self.nodes[0]) / (self.nodes[1] - self.nodes[0]), self.nodes.size)
-        scattered = weights * (deviation * np.sqrt(self.inflation * share))[:, None, :]
-        missed = weights * self.misfit
-        unsure = weights @ (beyond * self.departure / 2)[:, :, None]
-        covariance = scattered @ self.correlation @ scattered.swapaxes(1, 2)
-        covariance = covariance + missed @ missed.swapaxes(1, 2) + unsure @ unsure.swapaxes(1, 2)
+        scatter = deviation * np.sqrt(self.inflation * share)
+        unsure = beyond * self.departure / 2
+        nodes = scatter[:, :, None] * self.correlation * scatter[:, None, :] + np.diag(self.misfit**2)
+        covariance = weights @ (nodes + unsure[:, :, None] * unsure[:, None, :]) @ weights.swapaxes(1, 2)
         mean = (weights @ mean[:, :, None])[:, :, 0]
         if hardness is not None:
             softer = flow_terms(pressure, hardness[:, None]) @ self.flow

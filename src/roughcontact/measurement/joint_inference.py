@@ -17,6 +17,7 @@ from roughcontact.validation import Array, numeric, require
 __all__ = ["InferredParameter", "JointInference"]
 
 SHARES = (0.05, 0.5, 0.95)
+PART = 100  # joints at once: their covariances at all nodes take megabytes, not gigabytes
 INFORMED = 0.3  # nats, a standard deviation of 0.74 of the prior's: with less, a parameter counts as unknown
 
 
@@ -219,9 +220,13 @@ class JointInference:
         data = JointClosures(pressures, np.zeros(np.shape(pressures)), resolution=np.array(1.0))
         rng, points = self._drawn()
         kept = points[self.model.inside(points, data.log_pressures)]
-        mean, covariance = data.observed(*self.model.stiffness(kept, data.log_pressures))
-        scatter = np.sqrt(np.diagonal(covariance, axis1=1, axis2=2))
-        drawn = mean + scatter * rng.standard_normal(mean.shape)
+        means, scatters = [], []
+        for part in np.array_split(kept, -(-len(kept) // PART)):
+            mean, covariance = data.observed(*self.model.stiffness(part, data.log_pressures))
+            means.append(mean)
+            scatters.append(np.sqrt(np.diagonal(covariance, axis1=1, axis2=2)))
+        mean = np.concatenate(means)
+        drawn = mean + np.concatenate(scatters) * rng.standard_normal(mean.shape)
         low, median, high = np.pad(np.quantile(drawn, _ends(level), axis=0), ((0, 0), (1, 0)))
         return low, median, high
 

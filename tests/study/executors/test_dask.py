@@ -28,6 +28,7 @@ def threads():
         yield cluster
 
 
+@pytest.mark.slow
 def test_a_killed_worker_costs_nothing_and_a_killing_case_only_itself(monkeypatch):
     pytest.importorskip("cryptography")
     # Every task whose worker dies is put aside at once: that takes fewer new workers, which are slow to start.
