@@ -96,6 +96,19 @@ def test_a_joint_of_its_topography_needs_none():
     assert found.explanations == ()
 
 
+def test_a_joint_that_flows_is_explained_by_waviness_alone():
+    """Its hardness is known, so that it is no explanation any more."""
+    wavy = dataclasses.replace(MODEL, area=AREA / 0.05, carrying=0.05)
+    hardness, p = 0.8 * SCALE, np.geomspace(0.003, 0.017, 5) * SCALE  # less than half flows where it carries
+    point = np.append(POINT, math.log(hardness))
+    data = rc.JointStiffness(p, np.exp(wavy.stiffness(point[None], np.log(p))[0][0]), 0.02, 0.01)
+    given = GIVEN | {"area": AREA / 0.05, "hardness": hardness, "hardness_error": 0.05}
+    found = rc.infer_joint(data, **given, profile=TOPOGRAPHY)
+    assert not found.fits
+    assert [each.name for each in found.explanations] == ["carrying"]
+    assert found.explanations[0].low < 0.05 < found.explanations[0].high
+
+
 def test_unloading_is_not_explained_by_flow():
     soft = measured(hardness=0.8 * SCALE)
     found = rc.infer_joint(soft, **GIVEN | {"branch": "unloading"}, profile=TOPOGRAPHY)

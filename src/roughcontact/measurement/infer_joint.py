@@ -22,6 +22,7 @@ __all__ = ["infer_joint"]
 
 EDGE = 0.05  # in ln p: nearer to an end of the emulator, a joint counts as beyond it
 AT_EDGE = 0.05  # probability of such joints that is refused
+EXPLAINED = 500  # joints of the topography that explanations are compared with
 _UNITS = {"rms": "m", "rolloff": "m", "hurst": "", "band": "", "modulus": "Pa", "hardness": "Pa"}
 
 
@@ -109,11 +110,10 @@ def infer_joint(
     fits = not chance < UNLIKELY
     if fits:  # a curve of another shape may end there, too
         _require_inside(model, found.points, found.weights, data.log_pressures, AT_EDGE)
-    reasons = (
-        ()
-        if fits or profile is None
-        else explanations(model, data, before, soft is None and branch == "loading")
-    )
+    reasons: tuple[JointExplanation, ...] = ()
+    if not fits and profile is not None:
+        flows = soft is None and branch == "loading"
+        reasons = explanations(model, data, before[:EXPLAINED], flows)
     faces = "Gaussian faces that flow" if soft else "elastic, Gaussian faces"
     skewed = "with a skewness of +1 the height is 1.6 times the true one, with -1 0.6 times"
     notes = [Note(Rank.LIMITED, f"{faces} ({skewed}); a discrepancy of {DISCREPANCY:.0%} is assumed")]

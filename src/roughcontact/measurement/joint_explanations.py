@@ -15,7 +15,7 @@ from roughcontact.validation import Array
 
 __all__ = ["JointExplanation", "explanations"]
 
-SHARES = np.geomspace(0.01, 1, 41)  # of the nominal area
+SHARES = np.geomspace(0.01, 1, 25)  # of the nominal area
 SOFTENED = np.geomspace(
     2, 100, 41
 )  # hardness over the largest pressure; flow is computed up to half of the joint
