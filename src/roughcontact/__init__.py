@@ -138,6 +138,10 @@ if TYPE_CHECKING or _LATE is None:
         ring as ring,
         singly_periodic as singly_periodic,
     )
+    from roughcontact.halfspace.operators.check_operator import (
+        OperatorCheck as OperatorCheck,
+        check_operator as check_operator,
+    )
     from roughcontact.halfspace.operators.geometry import Geometry as Geometry
     from roughcontact.halfspace.operators.layer import layer as layer
     from roughcontact.halfspace.operators.line_contact import line as line

@@ -54,7 +54,7 @@ class Operator(Protocol):
     constant pressure moves nothing.
 
     These five members are enough for any solve. What else an operator can do, it states by an attribute
-    ``capabilities``, a `Capabilities`.
+    ``capabilities``, a `Capabilities`. `check_operator` tests both.
 
     Examples
     --------
