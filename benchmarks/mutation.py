@@ -1,0 +1,279 @@
+"""Mutation score of the tests: changes of the code, one at a time, and whether a test fails.
+
+    python benchmarks/mutation.py --store FOLDER [--count 400] [--seed 0] [--rooms solver,contact] [--minutes 60]
+    python benchmarks/mutation.py --store FOLDER --whole     # once more against all tests, those that survived
+    python benchmarks/mutation.py --store FOLDER --report
+
+Mutants of the rooms are drawn at random, in proportion to their places: a comparison or an operator becomes another
+one, a condition its opposite, a number its neighbour, a returned value None, a call by itself nothing. Each is tried
+with the tests of its room, those of its own file first, until one fails. The store is a line of JSON a mutant: a run
+that was stopped goes on where it was. Notes on survivors that cannot change an answer stand in
+``benchmarks/mutation-equivalent.toml``; such mutants leave the score.
+"""
+
+from __future__ import annotations
+
+import argparse
+import ast
+import json
+import os
+import random
+import shutil
+import subprocess
+import sys
+import time
+import tomllib
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+PACKAGE = ROOT / "src" / "roughcontact"
+EQUIVALENT = Path(__file__).with_name("mutation-equivalent.toml")
+ROOMS = ("solver", "contact", "adhesion", "halfspace", "files")
+SLOWEST = 3.0  # times the time of the tests without a mutant: it hangs, and counts as found
+COMPARED = {
+    ast.Lt: "<=", ast.LtE: "<", ast.Gt: ">=", ast.GtE: ">", ast.Eq: "!=", ast.NotEq: "==",
+    ast.Is: "is not", ast.IsNot: "is", ast.In: "not in", ast.NotIn: "in",
+}  # fmt: skip
+COMPUTED = {
+    ast.Add: "-", ast.Sub: "+", ast.Mult: "/", ast.Div: "*", ast.FloorDiv: "*", ast.Mod: "*", ast.Pow: "*",
+    ast.BitAnd: "|", ast.BitOr: "&", ast.MatMult: None,
+}  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class Mutant:
+    """One change: the characters from `start` to `end` of a file become other ones."""
+
+    room: str
+    file: str
+    line: int
+    start: int
+    end: int
+    kind: str
+    new: str
+
+    @property
+    def name(self) -> str:
+        """Where it is, and what it changes."""
+        return f"{self.file}:{self.line}:{self.start} {self.kind}"
+
+    def applied(self, text: str) -> str:
+        """Return the text of its file with the change."""
+        return text[: self.start] + self.new + text[self.end :]
+
+
+def mutants(path: Path, room: str) -> Iterator[Mutant]:
+    """Yield every mutant of a file."""
+    text = path.read_text(encoding="utf-8")
+    lines = [0]
+    for line in text.splitlines(keepends=True):
+        lines.append(lines[-1] + len(line))
+    encoded = [line.encode() for line in text.splitlines(keepends=True)]
+
+    def place(line: int, column: int) -> int:
+        return lines[line - 1] + len(encoded[line - 1][:column].decode())
+
+    def span(node: ast.expr | ast.stmt) -> tuple[int, int]:
+        assert node.end_lineno is not None
+        assert node.end_col_offset is not None
+        return place(node.lineno, node.col_offset), place(node.end_lineno, node.end_col_offset)
+
+    def change(node: ast.expr | ast.stmt, start: int, end: int, kind: str, new: str) -> Mutant:
+        return Mutant(room, path.relative_to(PACKAGE).as_posix(), node.lineno, start, end, kind, new)
+
+    def between(left: ast.expr, right: ast.expr, kind: str, new: str) -> Iterator[Mutant]:
+        start, end = span(left)[1], span(right)[0]
+        gap = text[start:end]
+        sign = gap.strip(" ()\n\\")
+        if "#" not in gap and sign and gap.count(sign) == 1:  # brackets around both sides stay
+            at = start + gap.index(sign)
+            yield change(left, at, at + len(sign), kind, new)
+
+    def of(node: ast.AST) -> Iterator[Mutant]:
+        match node:
+            case ast.Compare(left=left, ops=[operation], comparators=[right]):
+                yield from between(left, right, "comparison", COMPARED[type(operation)])
+            case ast.BinOp(left=left, op=operation, right=right):
+                if (new := COMPUTED.get(type(operation))) is not None:
+                    yield from between(left, right, "operator", new)
+            case ast.BoolOp(op=operation, values=[left, right, *_]):
+                yield from between(left, right, "and/or", "or" if isinstance(operation, ast.And) else "and")
+            case ast.UnaryOp(op=ast.Not() | ast.USub() as sign):
+                start = span(node)[0]
+                yield change(node, start, start + (4 if isinstance(sign, ast.Not) else 1), "sign", "")
+            case ast.If(test=test) | ast.IfExp(test=test) | ast.While(test=test):
+                start, end = span(test)
+                yield change(test, start, end, "condition", f"(not ({text[start:end]}))")
+            case ast.Constant(value=bool(value)):
+                yield change(node, *span(node), "constant", str(not value))
+            case ast.Constant(value=int(value) | float(value)):
+                yield change(
+                    node,
+                    *span(node),
+                    "constant",
+                    repr(value + 1 if isinstance(value, int) else 2 * value or 1.0),
+                )
+            case ast.Return(value=ast.expr() as value) if not is_none(value):
+                yield change(node, *span(value), "return", "None")
+            case ast.Expr(value=ast.Call()):
+                yield change(node, *span(node), "call", "pass")
+
+    tree = ast.parse(text)
+    for node in running(tree):
+        yield from of(node)
+
+
+def is_none(node: ast.expr) -> bool:
+    return isinstance(node, ast.Constant) and node.value is None
+
+
+def running(tree: ast.AST) -> Iterator[ast.AST]:
+    """Yield the nodes that run: no annotations, no texts of errors, nothing for type checkers, no lists of names."""
+    for name, field in ast.iter_fields(tree):
+        if name in ("annotation", "returns", "decorator_list", "type_params", "exc"):
+            continue
+        for node in field if isinstance(field, list) else [field]:
+            if not isinstance(node, ast.AST) or isinstance(node, ast.JoinedStr | ast.AnnAssign):
+                continue
+            if (
+                isinstance(node, ast.If)
+                and isinstance(node.test, ast.Name)
+                and node.test.id == "TYPE_CHECKING"
+            ):
+                continue
+            if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) in ("__all__", "__slots__"):
+                continue
+            yield node
+            yield from running(node)
+
+
+def drawn(rooms: tuple[str, ...], count: int, seed: int) -> list[Mutant]:
+    """Return mutants of rooms, drawn at random without repetition."""
+    every = [
+        mutant
+        for room in rooms
+        for path in sorted((PACKAGE / room).rglob("*.py"))
+        for mutant in mutants(path, room)
+    ]
+    print(f"{len(every)} mutants in {', '.join(rooms)}", flush=True)
+    return random.Random(seed).sample(every, min(count, len(every)))
+
+
+@dataclass(frozen=True)
+class Bench:
+    """A copy of the package in which one mutant at a time is tried."""
+
+    home: Path
+
+    def prepare(self) -> None:
+        """Copy the package."""
+        shutil.rmtree(self.home, ignore_errors=True)
+        shutil.copytree(PACKAGE, self.home / "roughcontact", ignore=shutil.ignore_patterns("__pycache__"))
+
+    def seconds(
+        self, mutant: Mutant | None, tests: list[str], limit: float | None = None
+    ) -> tuple[str, float]:
+        """Return whether a mutant was found, "found", "hung" or "survived", and the seconds that this took."""
+        whole = None
+        if mutant is not None:
+            path = self.home / "roughcontact" / mutant.file
+            whole = path.read_text(encoding="utf-8")
+            path.write_text(mutant.applied(whole), encoding="utf-8")
+        paths = os.pathsep.join([str(self.home), str(ROOT / "reproduction" / "src")])
+        threads = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"), "1")
+        environment = os.environ | threads | {"PYTHONPATH": paths, "PYTHONDONTWRITEBYTECODE": "1"}
+        words = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", "--no-header", *tests]
+        start = time.perf_counter()
+        try:
+            done = subprocess.run(
+                words, cwd=ROOT, env=environment, capture_output=True, timeout=limit, check=False
+            )
+            result = {0: "survived", 1: "found", 2: "found"}.get(done.returncode, "")
+            if not result:
+                raise RuntimeError(done.stdout.decode()[-2000:])
+        except subprocess.TimeoutExpired:
+            result = "hung"
+        finally:
+            if whole is not None:
+                path.write_text(whole, encoding="utf-8")
+        return result, time.perf_counter() - start
+
+
+def tests_of(mutant: Mutant) -> list[str]:
+    """Return the tests of a room, those that are named like the file first."""
+    folder = ROOT / "tests" / mutant.room
+    every = sorted(folder.rglob("test_*.py"))
+    own = [path for path in every if path.stem == f"test_{Path(mutant.file).stem}"]
+    return [str(path.relative_to(ROOT)) for path in [*own, *(path for path in every if path not in own)]]
+
+
+def read(store: Path) -> dict[str, dict[str, object]]:
+    """Return the results by the names of the mutants; later lines count."""
+    if not store.exists():
+        return {}
+    rows = map(json.loads, store.read_text(encoding="utf-8").splitlines())
+    return {row["name"]: row for row in rows}
+
+
+def report(rows: dict[str, dict[str, object]]) -> None:
+    """Print the score of each room and the survivors."""
+    known = tomllib.loads(EQUIVALENT.read_text(encoding="utf-8")) if EQUIVALENT.exists() else {}
+    for room in (*ROOMS, "all"):
+        of = {name: row for name, row in rows.items() if room in ("all", row["room"])}
+        left = {name for name, row in of.items() if row["result"] == "survived"}
+        same = left & known.keys()
+        counted = len(of) - len(same)
+        if counted:
+            found = len(of) - len(left)
+            print(
+                f"{room:10s} {found:4d} of {counted:4d} found, {found / counted:.1%}; {len(same)} equivalent"
+            )
+    for name, row in sorted(rows.items()):
+        if row["result"] == "survived":
+            print(f"survived: {name} -> {row['new']!r} {known.get(name, '')}")
+
+
+def main() -> None:
+    """Run it."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--store", type=Path, required=True)
+    parser.add_argument("--count", type=int, default=400)
+    parser.add_argument("--seed", type=int, default=0)
+    parser.add_argument("--rooms", default=",".join(ROOMS))
+    parser.add_argument("--minutes", type=float, default=1e6)
+    parser.add_argument("--whole", action="store_true")
+    parser.add_argument("--report", action="store_true")
+    chosen = parser.parse_args()
+    chosen.store.mkdir(parents=True, exist_ok=True)
+    store = chosen.store / "mutants.jsonl"
+    rows = read(store)
+    if chosen.report:
+        report(rows)
+        return
+    bench = Bench(chosen.store / "copy")
+    bench.prepare()
+    until = time.monotonic() + 60 * chosen.minutes
+    limits: dict[str, float] = {}
+    for mutant in drawn(tuple(chosen.rooms.split(",")), chosen.count, chosen.seed):
+        before = rows.get(mutant.name)
+        wanted = before is None if not chosen.whole else before is not None and before["result"] == "survived"
+        if not wanted or time.monotonic() > until:
+            continue
+        tests = ["tests", "reproduction/tests"] if chosen.whole else tests_of(mutant)
+        if (key := "" if chosen.whole else mutant.room) not in limits:
+            result, seconds = bench.seconds(None, tests)
+            if result != "survived":
+                raise RuntimeError(f"the tests of {key or 'the whole'} fail without a mutant")
+            limits[key] = SLOWEST * seconds
+        result, seconds = bench.seconds(mutant, tests, limits[key])
+        row = {"name": mutant.name, **asdict(mutant), "result": result, "seconds": round(seconds, 1)}
+        with store.open("a", encoding="utf-8") as file:
+            file.write(json.dumps(row) + "\n")
+        print(f"{result:8s} {seconds:6.1f} s  {mutant.name} -> {mutant.new!r}", flush=True)
+    report(read(store))
+
+
+if __name__ == "__main__":
+    main()
