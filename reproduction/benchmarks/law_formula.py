@@ -41,6 +41,7 @@ COLUMNS = (
     *("hurst", "highest", "exponent", "exponent_error", "level", "level_error", "correlation", "misfit"),
     *("low_first", "high_first", "low_last", "high_last", "scatter"),
 )
+# fmt: off
 TABLES: Mapping[str, tuple[tuple[float, ...], ...]] = {{
 {tables}}}
 '''

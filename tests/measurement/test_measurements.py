@@ -293,3 +293,10 @@ def test_a_measurement_prints_what_is_known():
     assert first.startswith("m0; AFM; 4 µm to 21.3 µm, limited by cells; white noise of 1e-12 m rms (stated)")
     assert second.startswith("m1; instrument not stated; ")
     assert [one.name for one in many] == ["m0", "m1"]
+
+
+@pytest.mark.parametrize(("shape", "bins"), [((24, 32), 1), ((18, 36), 2)])
+def test_a_small_map_with_fewer_than_three_bins_has_a_spectrum(shape, bins):
+    small = rc.self_affine(rc.Grid(shape, (2e-6, 1e-6)), hurst=0.8, rms=1e-7, rng=5)
+    spectrum = rc.Measurements.of({"small": small}).combined_spectrum()
+    assert spectrum.density.shape == spectrum.log_error.shape == spectrum.wavenumber.shape == (bins,)

@@ -138,6 +138,7 @@ OTHERS = {
     **{
         f"rough_square.{one}": {"force": 5e-3} for one in ("stiffness", "relative_error", "single_range")
     },  # in window
+    "rough_square.squares_needed": {"error": 0.1},
     "conductance.law": {"resistivities": (1e-8, 2e-8)},
     "interaction.finite_body": {"law": greenwood_williamson.law(ROUGH, 1e9, 1e-6)},
     "punch.two_discs": {"spacing": 5e-3},

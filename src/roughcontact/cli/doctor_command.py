@@ -42,6 +42,7 @@ EXTRAS = {
     "page": "the page in the browser, 'roughcontact serve'",
     "mpi": "one surface on several processes",
     "cluster": "studies on Dask",
+    "testing": "strategies of Hypothesis for your own tests",
     "notebook": "bars in notebooks while something is computed",
 }
 _VARIABLES = (

@@ -79,6 +79,7 @@ def between_places(found: Binned) -> tuple[Array, Array]:
     chi = np.nansum(weight * (found.log - mean) ** 2, axis=0)
     spare = np.maximum(np.isfinite(found.log).sum(axis=0) - 1, 0)
     scale = total - (weight**2).sum(axis=0) / np.maximum(total, 1e-300)
-    excess, scale, spare = (np.convolve(each, np.ones(3), "same") for each in (chi - spare, scale, spare))
+    # In full: with fewer than three bins, the same length would be that of the three.
+    excess, scale, spare = (np.convolve(each, np.ones(3))[1:-1] for each in (chi - spare, scale, spare))
     ratio = np.where(spare > 0, excess, math.nan) / np.maximum(scale, 1e-300)
     return np.sqrt(np.maximum(ratio, 0.0)), spare

@@ -51,13 +51,14 @@ class JointMeasurement:
         everyday=True,
     )
     errors: str | None = described(
-        "Standard error of a stiffness, relative, or of a reflection (default: the column error of the table).",
+        "Standard error of a stiffness or a reflection. For a stiffness it is relative (default: the column error "
+        "of the table).",
         "5%",
         read=Share("the error"),
         everyday=True,
     )
     gain: str | None = described(
-        "Relative standard error that all values share, such as that of a calibration.",
+        "Relative standard error that all values share. Such as that of a calibration.",
         "3%",
         read=Share("the gain"),
         everyday=True,
@@ -137,20 +138,20 @@ class MeasuredJoint:
     TITLE: ClassVar = "Joint"
     area: str = described("Nominal area.", "2cm^2", read=Amount(AREA, "the area"), default=..., everyday=True)
     branch: str = described(
-        "Whether the loads were measured on loading or on unloading.",
+        "On loading or on unloading.",
         read=Choice(("loading", "unloading")),
         default=...,
         everyday=True,
     )
     modulus_error: str = described(
-        "Relative standard error of the reduced modulus E*.",
+        "Relative standard error of E*.",
         "2%",
         read=Share("the error of the modulus"),
         default="2%",
         everyday=True,
     )
     hardness: str | None = described(
-        "Hardness of the softer face if it flows on loading, or the name of its material (default: elastic).",
+        "Hardness of the softer face, if it flows. On loading; or the name of its material (default: elastic).",
         "2GPa",
         read=hardness_of,
         names=METALS,
