@@ -29,6 +29,7 @@ __all__ = ["grids", "loads", "surfaces"]
 T = TypeVar("T")
 SPACING = (1e-9, 1e-3)  # m
 SLOPE = (1e-4, 1.0)  # rms height over the smaller side
+ROUNDED = 1e-9  # of the heights: a mean separation below is that of a flat surface
 FRACTIONS = (1e-4, 0.3)  # of what presses a surface about flat
 
 
@@ -134,7 +135,7 @@ def loads(surface: Surface, modulus: float) -> SearchStrategy[dict[str, float]]:
     -------
     SearchStrategy of dict
         A name and its value: force [N], pressure [Pa] or depth [m], up to about a third of what presses the surface
-        flat.
+        flat. A flat periodic surface has no depth.
 
     Examples
     --------
@@ -150,6 +151,10 @@ def loads(surface: Surface, modulus: float) -> SearchStrategy[dict[str, float]]:
     height = float(heights.max() - heights.min()) or 1e-3 * min(surface.grid.lengths)
     pressure = modulus * height / max(surface.grid.lengths)
     most = {"force": pressure * surface.grid.area, "pressure": pressure, "depth": height}
+    if all(surface.grid.periodic):  # in full contact at the mean of the heights
+        most["depth"] = float(heights.max() - heights.mean())
+    if not most["depth"] > ROUNDED * height:
+        del most["depth"]
 
     return st.sampled_from(sorted(most)).flatmap(
         lambda name: _scaled(*FRACTIONS).map(lambda share: {name: most[name] * share})
