@@ -7,8 +7,8 @@
 Mutants of the rooms are drawn at random, in proportion to their places: a comparison or an operator becomes another
 one, a condition its opposite, a number its neighbour, a returned value None, a call by itself nothing. Each is tried
 with the tests of its room, those of its own file first, until one fails. The store is a line of JSON a mutant: a run
-that was stopped goes on where it was. Notes on survivors that cannot change an answer stand in
-``benchmarks/mutation-equivalent.toml``; such mutants leave the score.
+that was stopped goes on where it was. Survivors that cannot change an answer are listed
+with the reason in ``benchmarks/mutation-equivalent.toml``; such mutants leave the score.
 """
 
 from __future__ import annotations
@@ -38,7 +38,7 @@ COMPARED = {
 }  # fmt: skip
 COMPUTED = {
     ast.Add: "-", ast.Sub: "+", ast.Mult: "/", ast.Div: "*", ast.FloorDiv: "*", ast.Mod: "*", ast.Pow: "*",
-    ast.BitAnd: "|", ast.BitOr: "&", ast.MatMult: None,
+    ast.BitAnd: "|", ast.BitOr: "&",
 }  # fmt: skip
 
 
@@ -263,11 +263,11 @@ def main() -> None:
             continue
         tests = ["tests", "reproduction/tests"] if chosen.whole else tests_of(mutant)
         if (key := "" if chosen.whole else mutant.room) not in limits:
-            result, seconds = bench.seconds(None, tests)
+            result, seconds = bench.tried(None, tests)
             if result != "survived":
                 raise RuntimeError(f"the tests of {key or 'the whole'} fail without a mutant")
             limits[key] = SLOWEST * seconds
-        result, seconds = bench.seconds(mutant, tests, limits[key])
+        result, seconds = bench.tried(mutant, tests, limits[key])
         row = {"name": mutant.name, **asdict(mutant), "result": result, "seconds": round(seconds, 1)}
         with store.open("a", encoding="utf-8") as file:
             file.write(json.dumps(row) + "\n")

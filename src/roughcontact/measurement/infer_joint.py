@@ -144,18 +144,14 @@ def _hardness(hardness: float | None, error: float | None, branch: str) -> tuple
 
 def _why_not(departs: str, profile: JointTopography | None, reasons: tuple[JointExplanation, ...]) -> str:
     """Return what the measurement contradicts, and what would explain it."""
-    found = ", or with ".join(map(str, reasons))
+    found = ", or by ".join(map(str, reasons))
     if departs == "level" and profile is not None:
         what = "not the joint of this topography: its stiffness departs from that of all such joints"
-        return (
-            f"{what}. It would be with {found}"
-            if found
-            else f"{what}, and no waviness or hardness explains it"
-        )
-    what = f"not this model: the {departs} of the stiffness departs from that of all joints"
-    if found:
-        return f"{what}. It would fit with {found}"
-    return f"{what}. Bodies or a machine in series, flow, waviness of few waves or mated faces change it"
+        otherwise = ", and no waviness or hardness explains it"
+    else:
+        what = f"not this model: the {departs} of the stiffness departs from that of all joints"
+        otherwise = ". Bodies or a machine in series, flow, waviness of few waves or mated faces change it"
+    return what + (f". It could be explained by {found}" if found else otherwise)
 
 
 def _require_inside(model: JointModel, points: Array, weights: Array, log_p: Array, most: float) -> None:

@@ -47,7 +47,7 @@ class JointExplanation:
         if self.name == "hardness":
             return f"a hardness of {best} ({low} to {high})"
         share = f"{self.best:.0%} of the area ({self.low:.0%} to {self.high:.0%})"
-        return f"a waviness whose crests carry on {share}"
+        return f"a waviness whose crests carry {share}"
 
 
 def explanations(

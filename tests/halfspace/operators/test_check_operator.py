@@ -107,7 +107,10 @@ BROKEN = [
         {"capabilities": rc.Capabilities(approximate_inverse=lambda u: np.cumsum(u, axis=0))},
         "symmetric in its approximate",
     ),
-    ({"capabilities": rc.Capabilities(approximate_inverse=lambda u: -u)}, "definite in its approximate"),
+    (
+        {"capabilities": rc.Capabilities(approximate_inverse=lambda u: -u)},
+        "approximate inverse of the operator is not positive definite",
+    ),
     (
         {"capabilities": rc.Capabilities(single_convolution=lambda p: np.float32(2) * p)},
         "not equal to its convolution in single precision",
@@ -134,7 +137,7 @@ def test_a_body_that_is_unstable_is_not_definite():
     def restrict(body, window):
         return Changed(body.restrict(window), apply=apply, as_matrix=as_matrix)
 
-    with pytest.raises(ValueError, match="not positive definite"):
+    with pytest.raises(ValueError, match="not semidefinite"):
         rc.check_operator(
             Changed(rc.half_space(GRID, 2.0), apply=apply, as_matrix=as_matrix, restrict=restrict)
         )
@@ -143,8 +146,9 @@ def test_a_body_that_is_unstable_is_not_definite():
 def test_a_periodic_body_rests_under_a_constant_pressure_unless_it_says_otherwise():
     periodic = rc.half_space(PERIODIC, 2.0)
     foundation = rc.foundation(rc.Grid(20, 0.5, periodic=True), 2.0)
-    assert "semidefinite" in [each.name for each in rc.check_operator(periodic)]
-    assert "positive definite" in [each.name for each in rc.check_operator(foundation)]
+    at_rest = "at rest under a constant pressure"
+    assert at_rest in [each.name for each in rc.check_operator(periodic)]
+    assert at_rest not in [each.name for each in rc.check_operator(foundation)]
     with pytest.raises(ValueError, match="not at rest under a constant pressure"):
         rc.check_operator(Changed(foundation, capabilities=rc.Capabilities(semidefinite=True)))
     with pytest.raises(ValueError, match="not positive definite"):

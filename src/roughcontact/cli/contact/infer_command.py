@@ -115,10 +115,8 @@ def _planned(job: InferJob, plan: JointPlan, folder: Path | None, answer: Answer
         widths = zip(plan.areas, plan.width, strict=True)
         print_table(header, [[written(float(area), "m2"), *(f"{w:.3f}" for w in ws)] for area, ws in widths])
         if plan.without.size:
-            left = [
-                (quantity("nominal_pressure", float(p)), f"{w:.3f}")
-                for p, w in zip(plan.pressures, plan.without, strict=True)
-            ]
+            loads = zip(plan.pressures.tolist(), plan.without, strict=True)
+            left = [(quantity("nominal_pressure", p), f"{w:.3f}") for p, w in loads]
             print_table(["without the load of", f"{written(float(plan.areas[0]), 'm2')}, one joint"], left)
     answer.finish(folder, ("inference.csv", "inference.json", "inference.nc"), job, plan)
 

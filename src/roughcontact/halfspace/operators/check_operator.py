@@ -23,7 +23,7 @@ __all__ = ["OperatorCheck", "check_operator"]
 TESTED = 300  # cells of the matrix
 ROUNDING = 64 * float(
     np.finfo(np.float64).eps
-)  # times sqrt(n): rounding errors of n terms add up as a random walk
+)  # times sqrt(n), as a random walk of n roundings; with a margin of 64
 SINGLE = 64 * float(np.finfo(np.float32).eps)
 
 
@@ -57,8 +57,9 @@ def check_operator(operator: Operator, *, rng: RngLike = 0) -> tuple[OperatorChe
     """Test whether an operator has the properties on which solves rely, and raise an error for the first it lacks.
 
     Random pressures on the whole grid test that it is linear, symmetric under its weights, and equal to its
-    restriction. Its matrix between at most 300 cells tests that it is definite. What it states in ``capabilities`` is
-    tested, too.
+    restriction. Its matrix between at most 300 cells tests that it is definite. These fields of its
+    ``capabilities`` are tested too: exact, positive, semidefinite, self_influences, submatrix, approximate_inverse and
+    single_convolution.
 
     Parameters
     ----------
@@ -142,12 +143,17 @@ def _checks(operator: Operator, rng: np.random.Generator) -> Iterator[OperatorCh
     root = np.sqrt(weights.ravel()[cells])
     values = np.linalg.eigvalsh(root[:, None] * matrix / root)
     lowest, highest = float(values[0]), float(values[-1]) or 1.0
+    yield OperatorCheck("semidefinite", max(-lowest / highest, 0.0), tolerance)
     if is_semidefinite(operator):
-        yield OperatorCheck("semidefinite", -lowest / highest, tolerance)
         constant = np.asarray(operator.apply(np.ones(shape)))
         yield OperatorCheck("at rest under a constant pressure", _size(constant) / _size(moved), allowed)
     else:
-        yield OperatorCheck("positive definite", -lowest / highest, -tolerance)
+        require(
+            lowest > tolerance * highest,
+            f"the operator is not positive definite: its smallest eigenvalue is {lowest / highest:.2g} of the largest",
+            "state semidefinite=True in its capabilities if a constant pressure moves nothing",
+            place="operator",
+        )
     if not able.listed:
         yield _restriction(operator, p, allowed)
     if able.positive:
@@ -191,7 +197,9 @@ def _stated(
             "symmetric in its approximate inverse", _asymmetry(weights, u, v, at, other), SINGLE
         )
         least = min(float(np.vdot(weights * a, b)) for a, b in ((at, u), (other, v)))
-        yield OperatorCheck("definite in its approximate inverse", 0.0 if least > 0 else 1.0, 0.5)
+        require(
+            least > 0, "the approximate inverse of the operator is not positive definite", place="operator"
+        )
     if able.single_convolution is not None:
         single = np.asarray(able.single_convolution(u.astype(np.float32)))
         difference = _apart(single.astype(np.float64), np.asarray(operator.apply(u)))
