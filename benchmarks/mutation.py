@@ -172,7 +172,7 @@ class Bench:
         shutil.rmtree(self.home, ignore_errors=True)
         shutil.copytree(PACKAGE, self.home / "roughcontact", ignore=shutil.ignore_patterns("__pycache__"))
 
-    def seconds(
+    def tried(
         self, mutant: Mutant | None, tests: list[str], limit: float | None = None
     ) -> tuple[str, float]:
         """Return whether a mutant was found, "found", "hung" or "survived", and the seconds that this took."""
