@@ -172,9 +172,7 @@ class Bench:
         shutil.rmtree(self.home, ignore_errors=True)
         shutil.copytree(PACKAGE, self.home / "roughcontact", ignore=shutil.ignore_patterns("__pycache__"))
 
-    def tried(
-        self, mutant: Mutant | None, tests: list[str], limit: float | None = None
-    ) -> tuple[str, float]:
+    def tried(self, mutant: Mutant | None, tests: list[str], limit: float | None = None) -> tuple[str, float]:
         """Return whether a mutant was found, "found", "hung" or "survived", and the seconds that this took."""
         whole = None
         if mutant is not None:
@@ -190,9 +188,9 @@ class Bench:
             done = subprocess.run(
                 words, cwd=ROOT, env=environment, capture_output=True, timeout=limit, check=False
             )
-            result = {0: "survived", 1: "found", 2: "found"}.get(done.returncode, "")
-            if not result:
+            if done.returncode > 2:  # below zero it crashed
                 raise RuntimeError(done.stdout.decode()[-2000:])
+            result = "survived" if done.returncode == 0 else "found"
         except subprocess.TimeoutExpired:
             result = "hung"
         finally:

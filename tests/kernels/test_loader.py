@@ -17,7 +17,9 @@ from roughcontact.kernels.processor import VARIABLE
 
 pytestmark = pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
 
-FAMILIES = ("block_kernels", "fft", "near_kernels", "plane_kernels", "tile_kernels", "vector_kernels")
+FAMILIES = (
+    "block_kernels", "dense_kernels", "fft", "near_kernels", "plane_kernels", "tile_kernels", "vector_kernels"
+)  # fmt: skip
 
 
 def test_code_is_translated_once(kept, translated, works):

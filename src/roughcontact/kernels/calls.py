@@ -15,6 +15,8 @@ if TYPE_CHECKING:
 
 __all__ = ["Function", "Operand", "address"]
 
+_FIRST = ctypes.c_char.from_buffer
+
 
 class Threads(Protocol):
     """What runs kernels, by several threads or one."""
@@ -94,14 +96,14 @@ class Function:
 
 def _address(given: Any, wanted: np.dtype[Any]) -> int:
     """Return where an array of a type begins."""
-    if not isinstance(given, (Operand, np.ndarray)):
+    if given.__class__ is not np.ndarray and not isinstance(given, (Operand, np.ndarray)):
         raise TypeError(f"an array of {wanted} is needed, not {type(given).__name__}")
-    if given.dtype != wanted:
+    if given.dtype is not wanted and given.dtype != wanted:
         raise TypeError(f"an array of {wanted} is needed, not one of {given.dtype}")
-    if isinstance(given, Operand):
-        return given.address
+    if given.__class__ is Operand:
+        return int(given.address)
     try:
-        return ctypes.addressof(ctypes.c_char.from_buffer(given))  # type: ignore[arg-type]
+        return ctypes.addressof(_FIRST(given))
     except (TypeError, ValueError):  # read only or empty: a slower way
         if not given.flags.c_contiguous:
             raise TypeError("a kernel takes arrays whose numbers lie one after the other") from None

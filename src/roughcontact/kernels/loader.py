@@ -95,6 +95,7 @@ def _families() -> Mapping[str, Any]:
     """Return the modules of kernels, imported late and by names that bundlers of programs see."""
     from roughcontact.kernels import (
         block_kernels,
+        dense_kernels,
         fft,
         near_kernels,
         plane_kernels,
@@ -102,7 +103,7 @@ def _families() -> Mapping[str, Any]:
         vector_kernels,
     )
 
-    families = block_kernels, fft, near_kernels, plane_kernels, tile_kernels, vector_kernels
+    families = block_kernels, dense_kernels, fft, near_kernels, plane_kernels, tile_kernels, vector_kernels
     return {family.__name__.rpartition(".")[2]: family for family in families}
 
 

@@ -71,6 +71,9 @@ class Number:
     def __mul__(self, other: Number | float) -> Number:
         return Number(self.builder.fmul(*_aligned(self, other), flags=_FUSE), self.builder)
 
+    def __truediv__(self, other: Number | float) -> Number:
+        return Number(self.builder.fdiv(*_aligned(self, other), flags=_FUSE), self.builder)
+
     def __neg__(self) -> Number:
         return Number(self.builder.fneg(self.value), self.builder)
 

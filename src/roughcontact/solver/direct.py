@@ -9,6 +9,8 @@ import numpy.typing as npt
 from scipy.linalg import blas, lapack
 
 from roughcontact.halfspace.operators.operator import Operator
+from roughcontact.kernels.constants import WIDTH
+from roughcontact.kernels.loader import functions, is_available
 from roughcontact.solver import tuning
 from roughcontact.solver.control import Control, Force
 from roughcontact.solver.inner_product import Measure
@@ -17,6 +19,7 @@ from roughcontact.validation import Array
 __all__ = ["Cells", "DirectSolution", "press_cells", "solve_cells"]
 
 Cells = npt.NDArray[np.intp]
+LANES = WIDTH // 8  # numbers of double precision that are taken at a time
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -51,8 +54,10 @@ def press_cells(operator: Operator, separation: Array, control: Control, cells: 
     With A a = 1 and A b = f on the cells the pressure is ``p = d a - b`` (A8); the force P fixes the depth
     ``d = (P + 1.b) / 1.a``.
     """
+    heights = np.asarray(separation.ravel()[cells], np.float64)
+    if len(cells) <= tuning.COMPILED_CELLS and isinstance(operator.weights, float) and is_available():
+        return _press_compiled(operator.as_matrix(cells), heights, control, operator.weights, cells)
     weights = Measure(operator.weights).on(cells)
-    heights = separation.ravel()[cells]
     system = _System(operator.as_matrix(cells), weights, np.stack([np.ones(len(cells)), heights], axis=1))
     while True:
         a, b = system.solution.T  # zero on the deactivated cells
@@ -64,6 +69,24 @@ def press_cells(operator: Operator, separation: Array, control: Control, cells: 
             error = float(np.abs(system.product(a) - 1.0)[kept].max())
             return DirectSolution(cells[kept], np.maximum(p[kept], 0.0), float(depth), a[kept], error)
         system.deactivate(tensile)
+
+
+def _press_compiled(
+    matrix: Array, heights: Array, control: Control, area: float, cells: Cells
+) -> DirectSolution:
+    """Do the same in one call of machine code, which takes a new elimination for every round."""
+    n, stride = len(cells), len(cells) + 2 + LANES - (len(cells) + 2) % LANES
+    kept, memory = np.arange(n + 1), np.empty((n + 6, stride))
+    matrix = np.ascontiguousarray(matrix, np.float64)
+    given = area if isinstance(control, Force) else 0.0, control.value
+    functions("dense_kernels", "float64")["press_cells"](n, matrix, heights, kept, memory, stride, *given)
+    _, _, tangent, _, pressure, found = memory[n:]
+    depth, error, definite = map(float, found[:3])
+    if not definite:
+        raise np.linalg.LinAlgError("not definite to working precision")
+    left = int(kept[n])
+    kept, p = kept[:left], np.maximum(pressure[:left], 0.0)
+    return DirectSolution(cells[kept], p, depth, tangent[:left].copy(), error)
 
 
 def solve_cells(operator: Operator, cells: Cells, right: Array) -> tuple[Array, Array]:

@@ -12,6 +12,7 @@ import numpy.typing as npt
 
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.love import love, love_table, strip, wave_compliance
+from roughcontact.kernels.loader import functions, is_available
 from roughcontact.validation import Array
 
 __all__ = [
@@ -278,17 +279,14 @@ class Tables:
 
     def matrix(self, rows: Offsets, columns: Offsets) -> Array:
         """Return the matrix [m/Pa] between cells."""
-        reach = spans(rows, columns)
-        matrix = np.empty((len(rows), len(rows)))
-        parts = blocks(len(rows), len(rows))
-        if self.has(reach) and 4 * reach[0] * reach[1] <= matrix.size:
-            # At offsets to all sides the table is found by one difference of places, not by two and their sizes.
-            around = _to_all_sides(self._largest.values[: reach[0], : reach[1]])
-            places, middle = rows * around.shape[1] + columns, around.size // 2
-            for part in parts:
-                matrix[part] = around.ravel().take(places[part, None] - (places - middle))
+        reach, matrix = spans(rows, columns), np.empty((len(rows), len(rows)))
+        large = self._largest
+        if is_available() and _holds(large.values.shape, reach):
+            places, width = (np.ascontiguousarray(k, np.int64) for k in (rows, columns)), large.whole.shape[1]
+            between = functions("dense_kernels", "float64")["influence_between"]
+            between(len(rows), *places, large.whole.ravel()[large.first :], width, matrix)
             return matrix
-        for part in parts:
+        for part in blocks(len(rows), len(rows)):
             matrix[part] = self.at(rows[part, None] - rows, columns[part, None] - columns, reach)
         return matrix
 
@@ -327,12 +325,6 @@ def _waves(length: int, count: int) -> Array:
     return np.asarray(
         often / length * np.cos(2 * np.pi / length * (np.arange(count)[:, None] * waves % length))
     )
-
-
-def _to_all_sides(table: Array) -> Array:
-    """Return a table at offsets from zero up with those to the other sides, zero in the middle."""
-    below = np.concatenate([table[:, :0:-1], table], axis=1)
-    return np.concatenate([below[:0:-1], below])
 
 
 def _holds(large: tuple[int, ...], small: tuple[int, ...]) -> bool:
