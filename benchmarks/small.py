@@ -1,15 +1,16 @@
 """Processor time of one load on a small surface [ms]: OMP_NUM_THREADS=1 python benchmarks/small.py.
 
 Free and periodic self-affine surfaces (H = 0.8) under four forces over E* L h_rms: the least of some calls, means over
-three seeds. Then how many of 64 x 64 cells are pressed a second: one after the other, and by a thread or a process for
-each core; medians of five turns.
+three seeds. Then how many of 64 x 64 cells are pressed a second: one after the other, by a thread for each core, and by
+`press_many` with a process for each, their start included; medians of five turns.
 """
 
 import os
 import statistics
 import time
-from collections.abc import Callable
-from concurrent.futures import Executor, ProcessPoolExecutor, ThreadPoolExecutor
+from collections.abc import Callable, Iterable
+from concurrent.futures import ThreadPoolExecutor
+from functools import partial
 
 import numpy as np
 
@@ -18,7 +19,8 @@ import roughcontact as rc
 FORCES = 1e-3, 0.046, 0.2, 1.0
 SEEDS = range(3)
 ROUNDS = 30
-MANY, CHUNK, TURNS = 1000, 50, 5
+MANY, TURNS = 4000, 5
+CORES = os.cpu_count() or 1
 
 
 def milliseconds(n: int, periodic: bool) -> dict[float, float]:
@@ -35,36 +37,30 @@ def milliseconds(n: int, periodic: bool) -> dict[float, float]:
     return {load: float(np.mean([least[load, k] for k in SEEDS])) for load in FORCES}
 
 
-def depth(surface: rc.Surface) -> float:
-    """Return a number of a load: a process that returned the solution would copy its maps."""
-    return rc.press(surface, 1.0, force=0.01 * 0.046).depth
-
-
 def throughputs() -> dict[str, float]:
     """Return how many surfaces are pressed a second, in three ways."""
     grid, rngs = rc.Grid((64, 64), 1 / 64), (np.random.default_rng(k) for k in range(MANY))
     surfaces = [rc.self_affine(grid, 0.8, 0.01, rng) for rng in rngs]
+    load = partial(rc.press, modulus=1.0, force=0.01 * 0.046)
 
-    def by(pool: Executor) -> float:
-        with pool:
-            list(pool.map(depth, surfaces[: CHUNK * workers], chunksize=CHUNK))  # all have begun
-            return seconds(lambda: list(pool.map(depth, surfaces, chunksize=CHUNK)))
+    def by_threads() -> Iterable[object]:
+        with ThreadPoolExecutor(CORES) as pool:
+            yield from pool.map(load, surfaces)
 
-    def seconds(work: Callable[[], object]) -> float:
-        start = time.perf_counter()
-        work()
-        return time.perf_counter() - start
-
-    workers = os.cpu_count() or 1
-    ways: dict[str, Callable[[], float]] = {
-        "one after the other": lambda: seconds(lambda: list(map(depth, surfaces))),
-        f"{workers} threads": lambda: by(ThreadPoolExecutor(workers)),
-        f"{workers} processes": lambda: by(ProcessPoolExecutor(workers)),
+    ways: dict[str, Callable[[], Iterable[object]]] = {
+        "one after the other": lambda: map(load, surfaces),
+        f"{CORES} threads": by_threads,
+        f"press_many, {CORES} processes": lambda: rc.press_many(
+            surfaces, 1.0, force=0.01 * 0.046, executor=rc.study.Processes(CORES)
+        ),
     }
     taken: dict[str, list[float]] = {way: [] for way in ways}
     for _ in range(TURNS):
-        for way, take in ways.items():
-            taken[way].append(take())
+        for way, solutions in ways.items():
+            start = time.perf_counter()
+            for _ in solutions():
+                pass
+            taken[way].append(time.perf_counter() - start)
     return {way: MANY / statistics.median(each) for way, each in taken.items()}
 
 

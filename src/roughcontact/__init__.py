@@ -196,6 +196,7 @@ if TYPE_CHECKING or _LATE is None:
     from roughcontact.solver.polonsky_keer import PolonskyKeer as PolonskyKeer
     from roughcontact.solver.prescribed import prescribed_displacement as prescribed_displacement
     from roughcontact.statistics.power_law import PowerLaw as PowerLaw
+    from roughcontact.study.press_many import press_many as press_many
     from roughcontact.surface.analysis.correlation import (
         autocorrelation as autocorrelation,
         structure_function as structure_function,

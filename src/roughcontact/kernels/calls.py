@@ -100,10 +100,10 @@ def _address(given: Any, wanted: np.dtype[Any]) -> int:
         raise TypeError(f"an array of {wanted} is needed, not {type(given).__name__}")
     if given.dtype is not wanted and given.dtype != wanted:
         raise TypeError(f"an array of {wanted} is needed, not one of {given.dtype}")
-    if given.__class__ is Operand:
-        return int(given.address)
+    if isinstance(given, Operand):
+        return given.address
     try:
-        return ctypes.addressof(_FIRST(given))
+        return ctypes.addressof(_FIRST(given))  # type: ignore[arg-type]
     except (TypeError, ValueError):  # read only or empty: a slower way
         if not given.flags.c_contiguous:
             raise TypeError("a kernel takes arrays whose numbers lie one after the other") from None

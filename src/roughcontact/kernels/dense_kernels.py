@@ -27,7 +27,7 @@ class Work(NamedTuple):
 
     The first n are those of the matrix and of both right sides; then come the reciprocal pivots, the factors of a row,
     both solutions, the pressure, and what is found: the depth, the largest deviation of ``A a`` from 1, and 1 if the
-    matrix is definite, else 0.
+    matrix is definite, otherwise 0.
     """
 
     rows: Vector
