@@ -6,9 +6,10 @@
 
 Mutants of the rooms are drawn at random, in proportion to their places: a comparison or an operator becomes another
 one, a condition its opposite, a number its neighbour, a returned value None, a call by itself nothing. Each is tried
-with the tests of its room, those of its own file first, until one fails. The store is a line of JSON a mutant: a run
-that was stopped goes on where it was. Survivors that cannot change an answer are listed
-with the reason in ``benchmarks/mutation-equivalent.toml``; such mutants leave the score.
+with the tests of its room that run its line (found once with coverage, ROOM.coverage in the store), then with all of
+their files, until one fails. The store is a line of JSON a mutant: a run that was stopped goes on where it was.
+Survivors that cannot change an answer are listed with the reason in ``benchmarks/mutation-equivalent.toml``; they leave
+the score.
 """
 
 from __future__ import annotations
@@ -27,11 +28,13 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
+from coverage import CoverageData
+
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = ROOT / "src" / "roughcontact"
 EQUIVALENT = Path(__file__).with_name("mutation-equivalent.toml")
 ROOMS = ("solver", "contact", "adhesion", "halfspace", "files")
-SLOWEST = 3.0  # times the time of the tests without a mutant: it hangs, and counts as found
+LIMIT = 600.0  # [s] for the tests of a mutant: it hangs, and counts as found
 COMPARED = {
     ast.Lt: "<=", ast.LtE: "<", ast.Gt: ">=", ast.GtE: ">", ast.Eq: "!=", ast.NotEq: "==",
     ast.Is: "is not", ast.IsNot: "is", ast.In: "not in", ast.NotIn: "in",
@@ -172,39 +175,54 @@ class Bench:
         shutil.rmtree(self.home, ignore_errors=True)
         shutil.copytree(PACKAGE, self.home / "roughcontact", ignore=shutil.ignore_patterns("__pycache__"))
 
-    def tried(self, mutant: Mutant | None, tests: list[str], limit: float | None = None) -> tuple[str, float]:
-        """Return whether a mutant was found, "found", "hung" or "survived", and the seconds that this took."""
-        whole = None
-        if mutant is not None:
-            path = self.home / "roughcontact" / mutant.file
-            whole = path.read_text(encoding="utf-8")
-            path.write_text(mutant.applied(whole), encoding="utf-8")
+    def tried(self, mutant: Mutant, tests: list[str]) -> str:
+        """Return whether a mutant was found by some tests, "found", "hung" or "survived"."""
+        path = self.home / "roughcontact" / mutant.file
+        whole = path.read_text(encoding="utf-8")
+        path.write_text(mutant.applied(whole), encoding="utf-8")
+        try:
+            done = self.pytest("-x", *tests, timeout=LIMIT)
+            if done.returncode > 2:  # below zero it crashed
+                raise RuntimeError(done.stdout.decode()[-2000:])
+            return "survived" if done.returncode == 0 else "found"
+        except subprocess.TimeoutExpired:
+            return "hung"
+        finally:
+            path.write_text(whole, encoding="utf-8")
+
+    def pytest(self, *words: str, timeout: float | None = None) -> subprocess.CompletedProcess[bytes]:
+        """Run tests on the copy."""
         paths = os.pathsep.join([str(self.home), str(ROOT / "reproduction" / "src")])
         threads = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"), "1")
         environment = os.environ | threads | {"PYTHONPATH": paths, "PYTHONDONTWRITEBYTECODE": "1"}
-        words = [sys.executable, "-m", "pytest", "-x", "-q", "-p", "no:cacheprovider", "--no-header", *tests]
-        start = time.perf_counter()
-        try:
-            done = subprocess.run(
-                words, cwd=ROOT, env=environment, capture_output=True, timeout=limit, check=False
-            )
-            if done.returncode > 2:  # below zero it crashed
-                raise RuntimeError(done.stdout.decode()[-2000:])
-            result = "survived" if done.returncode == 0 else "found"
-        except subprocess.TimeoutExpired:
-            result = "hung"
-        finally:
-            if whole is not None:
-                path.write_text(whole, encoding="utf-8")
-        return result, time.perf_counter() - start
+        command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "--no-header", *words]
+        return subprocess.run(
+            command, cwd=ROOT, env=environment, capture_output=True, timeout=timeout, check=False
+        )
+
+    def covered(self, store: Path, room: str) -> CoverageData:
+        """Return which tests of a room run which lines of it."""
+        file = store / f"{room}.coverage"
+        if not file.exists():
+            os.environ["COVERAGE_FILE"] = str(file)
+            measured = f"--cov={self.home / 'roughcontact' / room}", "--cov-context=test", "--cov-report="
+            done = self.pytest(*measured, f"tests/{room}")
+            if done.returncode:
+                raise RuntimeError(
+                    f"the tests of {room} fail without a mutant: {done.stdout.decode()[-2000:]}"
+                )
+        data = CoverageData(str(file))
+        data.read()
+        return data
 
 
-def tests_of(mutant: Mutant) -> list[str]:
-    """Return the tests of a room, those that are named like the file first."""
-    folder = ROOT / "tests" / mutant.room
-    every = sorted(folder.rglob("test_*.py"))
-    own = [path for path in every if path.stem == f"test_{Path(mutant.file).stem}"]
-    return [str(path.relative_to(ROOT)) for path in [*own, *(path for path in every if path not in own)]]
+def tests_of(mutant: Mutant, home: Path, covered: CoverageData) -> tuple[list[str], list[str]]:
+    """Return the tests that run the line of a mutant, and their files; all of its room where it runs on import."""
+    lines = covered.contexts_by_lineno(str(home / "roughcontact" / mutant.file))
+    line = max((line for line in lines if line <= mutant.line), default=0)  # where its statement begins
+    tests = sorted({test.partition("|")[0].partition("[")[0] for test in lines.get(line, []) if test})
+    files = sorted({test.partition("::")[0] for test in tests})
+    return (tests, files) if tests else ([f"tests/{mutant.room}"], [])
 
 
 def read(store: Path) -> dict[str, dict[str, object]]:
@@ -244,6 +262,7 @@ def main() -> None:
     parser.add_argument("--whole", action="store_true")
     parser.add_argument("--report", action="store_true")
     chosen = parser.parse_args()
+    chosen.store = chosen.store.resolve()
     chosen.store.mkdir(parents=True, exist_ok=True)
     store = chosen.store / "mutants.jsonl"
     rows = read(store)
@@ -253,20 +272,21 @@ def main() -> None:
     bench = Bench(chosen.store / "copy")
     bench.prepare()
     until = time.monotonic() + 60 * chosen.minutes
-    limits: dict[str, float] = {}
+    covered: dict[str, CoverageData] = {}
     for mutant in drawn(tuple(chosen.rooms.split(",")), chosen.count, chosen.seed):
         before = rows.get(mutant.name)
         wanted = before is None if not chosen.whole else before is not None and before["result"] == "survived"
         if not wanted or time.monotonic() > until:
             continue
-        tests = ["tests", "reproduction/tests"] if chosen.whole else tests_of(mutant)
-        if (key := "" if chosen.whole else mutant.room) not in limits:
-            result, seconds = bench.tried(None, tests)
-            if result != "survived":
-                raise RuntimeError(f"the tests of {key or 'the whole'} fail without a mutant")
-            limits[key] = SLOWEST * seconds
-        result, seconds = bench.tried(mutant, tests, limits[key])
-        row = {"name": mutant.name, **asdict(mutant), "result": result, "seconds": round(seconds, 1)}
+        if mutant.room not in covered and not chosen.whole:
+            covered[mutant.room] = bench.covered(chosen.store, mutant.room)
+        start, result = time.monotonic(), "survived"
+        whole = ["tests", "reproduction/tests"], []
+        for tests in whole if chosen.whole else tests_of(mutant, bench.home, covered[mutant.room]):
+            if tests and result == "survived":
+                result = bench.tried(mutant, tests)
+        seconds = round(time.monotonic() - start, 1)
+        row = {"name": mutant.name, **asdict(mutant), "result": result, "seconds": seconds}
         with store.open("a", encoding="utf-8") as file:
             file.write(json.dumps(row) + "\n")
         print(f"{result:8s} {seconds:6.1f} s  {mutant.name} -> {mutant.new!r}", flush=True)
