@@ -81,6 +81,13 @@ class Judge:
         ny, nx = self._shape
         return np.fft.irfft2(spectrum * self._multiplier, s=self._padded)[:ny, :nx]
 
+    def pressure(self, displacement: Array) -> Array:
+        """Return the pressure without its mean [Pa] that causes a displacement; periodic maps only."""
+        stiffness = np.divide(
+            1, self._multiplier, out=np.zeros_like(self._multiplier), where=self._multiplier > 0
+        )
+        return np.fft.irfft2(np.fft.rfft2(displacement) * stiffness, s=self._shape)
+
     def rounding(self, pressure: Array) -> float:
         """Return how far a displacement [m] may be rounded.
 
