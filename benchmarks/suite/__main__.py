@@ -69,9 +69,10 @@ def _run(args: argparse.Namespace) -> int:
     rows: list[dict[str, Any]] = []
     for name in chosen(args.cases):
         case, settings, before = CASES[name], dict[str, float](), len(rows)
+        seeds = args.seeds if args.seeds and len(case.seeds) > 1 else case.seeds[: 1 if args.growth else None]
         for n in args.sizes:
             fits = [p for p in programs if not _too_slow(rows, name, n, p.name, args.limit)]
-            for seed in args.seeds if args.seeds and len(case.seeds) > 1 else case.seeds:  # a sphere has none
+            for seed in seeds:
                 print(f"{name}, n = {n}, seed {seed} ...", file=sys.stderr)
                 try:
                     made = _rows(args, name, n, seed, fits, settings)
@@ -192,7 +193,7 @@ def _arguments(given: list[str] | None) -> argparse.Namespace:
     )
     commands = parser.add_subparsers(dest="command", required=True)
     run = commands.add_parser("run", help="run the cases")
-    run.add_argument("--cases", default=None, help=f"first letters (default: {DEFAULT})")
+    run.add_argument("--cases", default=None, help=f"names or first letters (default: {DEFAULT})")
     run.add_argument("--sizes", type=numbers, default=None, help="cells a side (default: 512)")
     run.add_argument(
         "--seeds", type=numbers, default=None, help="of cases with several (default: those of the case)"

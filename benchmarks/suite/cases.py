@@ -263,9 +263,10 @@ CASES = read()
 
 
 def chosen(prefixes: str) -> list[str]:
-    """Return the names of the cases that begin with one of the comma-separated `prefixes`."""
-    wanted = tuple(part.strip() for part in prefixes.split(",") if part.strip())
-    names = [name for name in CASES if name.startswith(wanted)]
+    """Return the cases of comma-separated names; what is no name stands for all that begin with it."""
+    wanted = [part.strip() for part in prefixes.split(",") if part.strip()]
+    unnamed = tuple(part for part in wanted if part not in CASES)
+    names = [name for name in CASES if name in wanted or (unnamed and name.startswith(unnamed))]
     if not names:
         raise ValueError(f"no case begins with {prefixes!r}; there are {', '.join(CASES)}")
     return names

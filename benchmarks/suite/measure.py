@@ -84,24 +84,23 @@ def compare(
 
     `settings` keeps the tolerance of each program from one seed to the next.
     """
-    judge = judge_of(case.kind, problem)
     entries = []
     for program in programs:
-        solve = program.solver(case.kind)
-        if solve is None:
-            continue
-        entry = Entry(program, solve, settings.get(program.name, program.start(case.kind, case.tolerance)))
-        if (
-            memory
-        ):  # first: what this process holds later would not change it, but the machine has to hold both
-            entry.memory = peak_alone(program, case.kind, problem, entry.tolerance)
+        if (solve := program.solver(case.kind)) is not None:
+            setting = settings.get(program.name, program.start(case.kind, case.tolerance))
+            entries.append(Entry(program, solve, setting))
+    if memory:  # first: the machine does not have to hold the kernel of the judge beside another process
+        for entry in entries:
+            entry.memory = peak_alone(entry.program, case.kind, problem, entry.tolerance)
+    judge = judge_of(case.kind, problem)
+    for entry in list(entries):
         try:
             _certify(entry, problem, judge, case.tolerance)
         except NotImplementedError:  # such problems are none of the program's
+            entries.remove(entry)
             continue
         if entry.certificate and entry.certificate.error <= case.tolerance:
-            settings[program.name] = entry.tolerance
-        entries.append(entry)
+            settings[entry.program.name] = entry.tolerance
     _check_agreement(entries, problem, judge, case)
     _take_times(entries, problem, repeats)
     rows = [entry.row() | {"uncertified": judge if isinstance(judge, str) else None} for entry in entries]

@@ -4,13 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
 import roughcontact as rc
 
 PACKAGE = "roughcontact"
 SETTINGS = "press(surface, modulus, force=...), adhesive_state(..., mean_gap=...), gap_flow(solution)"
-
 rc.press  # noqa: B018  # imported here, not inside the first measurement
 
 
@@ -19,9 +16,9 @@ def _surface(problem: Any, heights: Any) -> rc.Surface:
 
 
 def normal(problem: Any, tolerance: float) -> dict[str, Any]:
-    hardness = problem.hardness if np.isfinite(problem.hardness) else None
-    surface, given = _surface(problem, problem.heights), {"tolerance": tolerance, "hardness": hardness}
-    found = rc.press(surface, problem.modulus, force=problem.force, **given)
+    given = {"hardness": problem.hardness} if problem.hardness < float("inf") else {}
+    surface = _surface(problem, problem.heights)
+    found = rc.press(surface, problem.modulus, force=problem.force, tolerance=tolerance, **given)
     answer = {"pressure": found.pressure, "own_depth": found.depth}
     return answer | {"status": found.status.value, "products": found.steps}
 
@@ -30,10 +27,9 @@ plasticity = normal
 
 
 def adhesion(problem: Any, tolerance: float) -> dict[str, Any]:
-    sticky, surface = rc.Adhesion(problem.work, problem.range), _surface(problem, problem.heights)
-    found = rc.adhesive_state(
-        surface, problem.modulus, sticky, mean_gap=problem.mean_gap, tolerance=tolerance
-    )
+    law, given = rc.Adhesion(problem.work, problem.range), {"mean_gap": problem.mean_gap}
+    surface = _surface(problem, problem.heights)
+    found = rc.adhesive_state(surface, problem.modulus, law, tolerance=tolerance, **given)
     return {"gap": found.gap, "status": found.status.value, "products": found.products}
 
 
