@@ -206,7 +206,8 @@ def test_the_flow_through_layers_is_their_harmonic_mean(suite):
 
 def test_the_adapter_of_the_page_takes_part(suite, tmp_path, monkeypatch, capsys):
     (code,) = re.findall(r"^```python\n(.*?)^```", PAGE.read_text(encoding="utf-8"), re.MULTILINE | re.DOTALL)
-    assert len(code.splitlines()) <= 40
+    sources = [code, *(path.read_text() for path in (HOME / "benchmarks" / "suite").glob("peer_*.py"))]
+    assert max(len(each.splitlines()) for each in sources) <= 40
     (tmp_path / "peer_mine.py").write_text(code)
     monkeypatch.setattr(suite.main, "limit_threads", lambda count: None)
     given = [

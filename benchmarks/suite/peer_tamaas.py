@@ -12,7 +12,6 @@ SETTINGS = (
     "PolonskyKeerRey on the pressure, free: dcfft; on the gap for adhesion; KatoSaturated for a hardness"
 )
 START = {"normal": 3e-8, "adhesion": 1e-12}  # of the mean |gap| under pressure, up to five times the residual
-
 tamaas.set_log_level(tamaas.LogLevel.error)
 
 
@@ -20,7 +19,7 @@ def normal(problem: Any, tolerance: float) -> dict[str, Any]:
     shape, gap = problem.heights.shape, tamaas.PolonskyKeerRey.gap
     model = tamaas.ModelFactory.createModel(tamaas.model_type.basic_2d, [*problem.lengths], [*shape])
     model.E, model.nu = problem.modulus, 0.0
-    given, target = [model, problem.heights, tolerance], problem.force / np.prod(problem.lengths)
+    given, target = (model, problem.heights, tolerance), problem.force / np.prod(problem.lengths)
     if problem.work:
         solver, target = tamaas.PolonskyKeerRey(*given, gap, gap), problem.mean_gap
         law = tamaas.ExponentialAdhesionFunctional(problem.heights)
