@@ -29,7 +29,7 @@ def normal(problem: Any, tolerance: float) -> dict[str, Any]:
         solver = tamaas.KatoSaturated(*given, problem.hardness)
     else:
         solver = tamaas.PolonskyKeerRey(*given)
-    solver.max_iter = 100_000
+    solver.max_iter = 100_000 if problem.work else 10_000
     if not problem.periodic:
         tamaas.ModelFactory.registerNonPeriodic(model, "dcfft")
         solver.setIntegralOperator("dcfft")
