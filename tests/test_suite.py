@@ -258,13 +258,22 @@ def test_a_program_that_fails_or_differs_is_reported(suite):
         answer = suite.peer_roughcontact.normal(problem, 1e-8)
         return answer | {"pressure": answer["pressure"] * 1.01}
 
-    others = [program("fails", fails), program("loose", loose), program("none", None)]
+    def stuck(problem, tolerance):
+        return loose(problem, tolerance) | {"status": "step limit"}
+
+    others = [
+        program("fails", fails),
+        program("loose", loose),
+        program("none", None),
+        program("stuck", stuck),
+    ]
     rows = suite.measure.compare(case, problem, [ours, *others], {}, 1)
-    assert [each["program"] for each in rows] == ["roughcontact", "fails", "loose"]
+    assert [each["program"] for each in rows] == ["roughcontact", "fails", "loose", "stuck"]
     assert rows[0]["trouble"] == ""
     assert rows[0]["product_seconds"] > 0
     assert rows[1]["trouble"] == "failed: RuntimeError: no licence"
     assert rows[2]["force_error"] == pytest.approx(0.01)
+    assert rows[2]["setting"] < 1e-11 < rows[3]["setting"] == 1e-8  # tightened in vain, and not at all
 
 
 def test_the_memory_is_that_of_a_process_of_its_own(suite):
