@@ -108,7 +108,7 @@ docs: $(ENV)/.ready-to-write
 	  && echo "docs: OK - see build/docs/index.html" || { echo "docs: FAILED"; exit 1; }
 
 bench: $(BENCH_ENV)/.ready
-	@$(BENCH_ENV)/bin/python benchmarks/peers.py $(ARGS) \
+	@$(BENCH_ENV)/bin/python benchmarks/suite run $(ARGS) \
 	  && echo "bench: OK" || { echo "bench: FAILED"; exit 1; }
 
 clean:
@@ -147,7 +147,7 @@ $(BENCH_ENV)/.ready: pyproject.toml
 	@$(call create,$(BENCH_ENV))
 	@echo "Installing roughcontact and its peers into $(BENCH_ENV) ..."
 	@$(BENCH_ENV)/bin/python $(INSTALL) -e .
-	@for peer in tamaas ContactMechanics Adhesion; do \
+	@for peer in tamaas ContactMechanics Adhesion reynoldsflow rfgen; do \
 	  $(BENCH_ENV)/bin/python $(INSTALL) $$peer || echo "$$peer: cannot be installed here, not shown"; done
 	@CMAKE_ARGS="-DASPHER_NATIVE=ON" $(BENCH_ENV)/bin/python -m pip install -qq --no-binary=aspher aspher \
 	  || echo "aspher: needs g++, cmake and Eigen (Debian: libeigen3-dev) to build, not shown"

@@ -14,8 +14,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import numpy.typing as npt
-from certificate import Judge
-from programs import limit_threads, load
+from suite.certificate import Judge
+from suite.programs import limit_threads, load
 
 limit_threads(1)
 import roughcontact as rc  # noqa: E402  # reads the number of threads once
@@ -78,7 +78,8 @@ def tamaas(heights: Array, periodic: bool) -> list[Row]:
 
 def contactmechanics(heights: Array, periodic: bool) -> list[Row]:
     """ContactMechanics by its pipeline, then by its solver with a tighter tolerance."""
-    import peer_contactmechanics
+    from suite import peer_contactmechanics
+    from suite.cases import Problem
     from SurfaceTopography import Topography
 
     fields: list[tuple[Any, ...]] = []
@@ -91,11 +92,10 @@ def contactmechanics(heights: Array, periodic: bool) -> list[Row]:
     depth = heights.max() - (heights.mean() + gap[0] if periodic else -offset[0])
     setting = f"default, {'converged' if converged[0] else 'not converged'}"
     row = Row(setting, fields[0][2] * MODULUS, float(offset[0]), float(depth), float(gap[0]))
-    pressure, depth = peer_contactmechanics.solve(
-        heights, (SPACING, SPACING), MODULUS, force=PRESSURE * LENGTH**2, periodic=periodic, tolerance=TIGHT
-    )
+    problem = Problem(heights, (SPACING, SPACING), periodic, PRESSURE * LENGTH**2, MODULUS)
+    answer = peer_contactmechanics.normal(problem, TIGHT)
     tight = f"pentol {TIGHT:.0e} of the range"
-    return [row, Row(tight, pressure, np.nan, np.nan if depth is None else depth, np.nan)]
+    return [row, Row(tight, answer["pressure"], np.nan, answer.get("own_depth", np.nan), np.nan)]
 
 
 def aspher(heights: Array, periodic: bool) -> list[Row]:

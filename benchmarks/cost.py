@@ -17,7 +17,7 @@ from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
-from cases import CASES
+from suite.cases import CASES
 
 import roughcontact as rc
 from roughcontact.halfspace.sums.particle_mesh import TileOperator

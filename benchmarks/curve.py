@@ -11,17 +11,18 @@ import argparse
 import importlib.metadata
 import json
 import os
-import resource
 import statistics
 import subprocess
 import sys
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from programs import limit_threads
-from quiet import disturbed, others, waited
+from suite.alone import peak
+from suite.programs import limit_threads
+from suite.quiet import disturbed, others, waited
 
 POINTS, LOWEST, HIGHEST = 100, 1e-4, 0.07  # loads, evenly spaced in the logarithm, as dimensionless forces
 CHECKED = (0, 33, 66, 99)  # loads at which answers are certified and compared
@@ -41,7 +42,7 @@ def ours(problem: Any, forces: Any, tolerance: float, most: float) -> Curve:
 
     Ours keeps its default tolerance, and goes on to its end.
     """
-    from certificate import Judge
+    from suite.certificate import Judge
 
     import roughcontact as rc
 
@@ -69,8 +70,8 @@ def aspher(problem: Any, forces: Any, tolerance: float, most: float, *, warm: bo
     """Return the same for ASPHER, cut after so many seconds; the judge takes depth and cells from its pressure."""
     import aspher
     import numpy as np
-    import peer_aspher
-    from certificate import Judge
+    from suite import peer_aspher
+    from suite.certificate import Judge
 
     n, kept = len(problem.heights), {}
 
@@ -80,9 +81,7 @@ def aspher(problem: Any, forces: Any, tolerance: float, most: float, *, warm: bo
         pressure, start = None, time.perf_counter()
         for i, force in enumerate(forces):
             if solver is None:
-                pressure, _ = peer_aspher.solve(
-                    problem.heights, problem.spacing, force=force, periodic=False, tolerance=tolerance
-                )
+                pressure = peer_aspher.normal(replace(problem, force=force), tolerance)["pressure"]
             else:
                 before = None if pressure is None else pressure * (force / forces[i - 1])
                 result = solver.solve(
@@ -107,13 +106,14 @@ def aspher(problem: Any, forces: Any, tolerance: float, most: float, *, warm: bo
 def work(name: str, n: int, seed: int, tolerance: float, most: float) -> dict[str, Any]:
     """Solve one curve in this process."""
     import numpy as np
-    from cases import RMS, fractal
+    from suite.cases import CASES
 
     make = ours if name == "roughcontact" else lambda *a: aspher(*a, warm=name == "aspher-warm")
-    forces = RMS * np.geomspace(LOWEST, HIGHEST, POINTS)
-    warm_up, _ = make(fractal(64, 0, hurst=0.8, load=HIGHEST), forces[-2:], tolerance, most)
+    case = CASES["fractal-0.8-0.046"]  # its surface
+    forces = case.surface["rms"] * np.geomspace(LOWEST, HIGHEST, POINTS)
+    warm_up, _ = make(case(64, 0), forces[-2:], tolerance, most)
     warm_up()  # imports and first calls
-    run, points = make(fractal(n, seed, hurst=0.8, load=HIGHEST), forces, tolerance, most)
+    run, points = make(case(n, seed), forces, tolerance, most)
     before = peak()
     waiting, taken, start = waited(), others(), time.perf_counter()
     result = run()
@@ -128,16 +128,6 @@ def work(name: str, n: int, seed: int, tolerance: float, most: float) -> dict[st
         "disturbed": noise,
         "tolerance": tolerance,
     }
-
-
-def peak() -> float:
-    """Return the peak resident memory of this process [MB]."""
-    status = Path("/proc/self/status")
-    if status.exists():  # getrusage would count what the parent held when it started this process
-        line = next(line for line in status.read_text().splitlines() if line.startswith("VmHWM"))
-        return int(line.split()[1]) * 1024 / 1e6
-    unit = 1 if sys.platform == "darwin" else 1024
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit / 1e6
 
 
 def measure(name: str, n: int, seed: int, tolerance: float, most: float) -> dict[str, Any]:

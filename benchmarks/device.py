@@ -24,9 +24,9 @@ from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
-from cases import CASES, Problem, chosen
-from measure import AGREEMENT, TIGHT
 from pairs import without
+from suite.cases import CASES, Problem, chosen
+from suite.measure import AGREEMENT, TIGHT
 
 import roughcontact as rc
 from roughcontact.transforms import Convolution

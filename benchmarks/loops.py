@@ -22,8 +22,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, fields
 
 import numpy as np
-from certificate import KERNEL, Judge
 from robust import FORCE, TOLERANCE, Array, Problem, problem
+from suite.certificate import KERNEL, Judge
 
 import roughcontact as rc
 

@@ -9,7 +9,7 @@ import time
 from concurrent.futures import ProcessPoolExecutor
 
 import numpy as np
-from quiet import waited
+from suite.quiet import waited
 
 import roughcontact as rc
 from roughcontact.mdr.lines.line_curves import LineCurves

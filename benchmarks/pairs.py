@@ -22,7 +22,7 @@ from functools import cache, partial
 from typing import Any
 
 import numpy as np
-from cases import CASES
+from suite.cases import CASES
 
 import roughcontact as rc
 from roughcontact.halfspace.influence import tables

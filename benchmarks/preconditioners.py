@@ -23,7 +23,7 @@ import numpy as np
 import numpy.typing as npt
 import scipy.ndimage
 import scipy.sparse
-from cases import CASES, chosen
+from suite.cases import CASES, chosen
 
 import roughcontact as rc
 from roughcontact.halfspace.operators.operator import capabilities

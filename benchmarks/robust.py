@@ -24,7 +24,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import numpy.typing as npt
-from certificate import KERNEL, Judge
+from suite.certificate import KERNEL, Judge
 
 import roughcontact as rc
 

@@ -12,8 +12,8 @@ import statistics
 import sys
 from typing import Any
 
-from cases import CASES
 from pairs import without
+from suite.cases import CASES
 
 import roughcontact as rc
 from roughcontact.solver import tuning

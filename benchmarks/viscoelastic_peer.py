@@ -16,7 +16,7 @@ from collections.abc import Callable
 
 import numpy as np
 import numpy.typing as npt
-from programs import limit_threads
+from suite.programs import limit_threads
 
 limit_threads(1)
 import tamaas  # noqa: E402  # reads the number of threads once

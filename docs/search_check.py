@@ -34,6 +34,7 @@ QUESTIONS = {
     "table for other codes": "how-to/interface-tables",
     "tamaas": "coming-from/tamaas",
     "aspher": "coming-from/aspher",
+    "benchmark": "evidence/benchmark-suite",
     "contact.engineering": "coming-from/contactmechanics",
     "tip radius": "how-to/afm",
     "pint": "how-to/units",

@@ -16,7 +16,7 @@ BENCHMARKS = str(Path(__file__).parents[1] / "benchmarks")
 def loops(monkeypatch):
     monkeypatch.syspath_prepend(BENCHMARKS)
     yield importlib.import_module("loops")
-    for name in ("loops", "robust", "certificate"):
+    for name in ("loops", "robust", "suite.certificate"):
         sys.modules.pop(name, None)
 
 

@@ -18,7 +18,7 @@ BENCHMARKS = str(Path(__file__).parents[1] / "benchmarks")
 def robust(monkeypatch):
     monkeypatch.syspath_prepend(BENCHMARKS)
     yield importlib.import_module("robust")
-    for name in ("robust", "certificate"):
+    for name in ("robust", "suite.certificate"):
         sys.modules.pop(name, None)
 
 

@@ -16,7 +16,7 @@ import numpy as np
 from law_ensembles import ROOT, STUDIES
 
 sys.path.append(str(ROOT / "benchmarks"))  # of roughcontact
-from certificate import Judge
+from suite.certificate import Judge
 
 from roughcontact.grid import Grid
 from roughcontact.mdr.lines.random_lines import rough_lines

@@ -1,13 +1,8 @@
-"""Pictures of what `peers.py --json FILE` measured: time against the number of cells, and against the load.
-
-python benchmarks/pictures.py FILE FOLDER
-"""
+"""Pictures of rows: time against the number of cells, and against the load."""
 
 from __future__ import annotations
 
-import json
 import math
-import sys
 from collections import defaultdict
 from pathlib import Path
 from statistics import median
@@ -17,6 +12,9 @@ import matplotlib
 
 matplotlib.use("Agg")
 from matplotlib import pyplot as plt
+
+from suite.cases import CASES
+from suite.rows import refusal
 
 __all__ = ["draw"]
 
@@ -31,10 +29,10 @@ ACROSS = 4  # panels in a row
 Times = dict[tuple[str, str], dict[float, float]]  # of a program and a case: seconds at each place
 
 
-def draw(record: dict[str, Any], folder: Path) -> list[Path]:
+def draw(rows: list[dict[str, Any]], folder: Path) -> list[Path]:
     """Write the pictures and return where they are; one that would show nothing is left out."""
     folder.mkdir(parents=True, exist_ok=True)
-    rows = [row for row in record["rows"] if row["seconds"] and not row["trouble"]]
+    rows = [row for row in rows if not refusal(row, CASES.get(row["case"]))]
     written = []
     for name, picture in (("time-against-n.png", _against_n), ("time-against-load.png", _against_load)):
         figure = picture(rows)
@@ -107,10 +105,3 @@ def _panels(times: Times, label: str) -> Any:
 
 def _places(times: Times, case: str) -> int:
     return max(len(line) for (_, name), line in times.items() if name == case)
-
-
-if __name__ == "__main__":
-    if len(sys.argv) != 3:
-        sys.exit(__doc__)
-    for path in draw(json.loads(Path(sys.argv[1]).read_text()), Path(sys.argv[2])):
-        print(path)

@@ -20,6 +20,7 @@ Mask = npt.NDArray[np.bool_]
 
 EPS = float(np.finfo(np.float64).eps)
 IMAGES = 32  # of a cell on either side that are summed one by one
+ROWS = 256  # of a kernel at once, in the longer type
 KERNEL = 1e-11  # of the largest: errors of a kernel; what is left of the tail of a row of images is 4e-12
 
 
@@ -80,6 +81,13 @@ class Judge:
         spectrum = np.fft.rfft2(pressure, s=self._padded)
         ny, nx = self._shape
         return np.fft.irfft2(spectrum * self._multiplier, s=self._padded)[:ny, :nx]
+
+    def pressure(self, displacement: Array) -> Array:
+        """Return the pressure without its mean [Pa] that causes a displacement; periodic maps only."""
+        stiffness = np.divide(
+            1, self._multiplier, out=np.zeros_like(self._multiplier), where=self._multiplier > 0
+        )
+        return np.fft.irfft2(np.fft.rfft2(displacement) * stiffness, s=self._shape)
 
     def rounding(self, pressure: Array) -> float:
         """Return how far a displacement [m] may be rounded.
@@ -169,12 +177,16 @@ def _love(shape: tuple[int, int], spacing: tuple[float, float]) -> Array:
     what double precision would lose.
     """
     (ny, nx), (dy, dx) = shape, spacing
-    y = ((np.arange(ny + 1, dtype=np.longdouble) - 0.5) * dy)[:, None]
     x = (np.arange(nx + 1, dtype=np.longdouble) - 0.5) * dx
-    r = np.hypot(y, x)
-    corner = y * np.log(x + r) + x * np.log(y + r)
-    cell = corner[1:, 1:] - corner[:-1, 1:] - corner[1:, :-1] + corner[:-1, :-1]
-    return np.asarray(cell / np.longdouble(np.pi), dtype=np.float64)
+    cells = np.empty(shape)
+    for first in range(0, ny, ROWS):
+        rows = np.arange(first, min(first + ROWS, ny) + 1, dtype=np.longdouble)
+        y = ((rows - 0.5) * dy)[:, None]
+        r = np.hypot(y, x)
+        corner = y * np.log(x + r) + x * np.log(y + r)
+        cell = corner[1:, 1:] - corner[:-1, 1:] - corner[1:, :-1] + corner[:-1, :-1]
+        cells[first : first + ROWS] = cell / np.longdouble(np.pi)
+    return cells
 
 
 def _row(shape: tuple[int, int], spacing: tuple[float, float], periodic: tuple[bool, bool]) -> Array:

@@ -1,7 +1,7 @@
 """The flow through the same gaps by ReynoldsFlow (BSD-3-Clause): docs/evidence/gap-flow-evidence.md.
 
 It solves the flow along axis 0 with harmonic means of g^3 at the faces, as roughcontact does, and computes no contact.
-pip install reynoldsflow in an environment that holds roughcontact; then python benchmarks/peer_reynoldsflow.py 128
+pip install reynoldsflow in an environment that holds roughcontact; then python benchmarks/flow_peer.py 128
 """
 
 from __future__ import annotations
@@ -10,26 +10,15 @@ import sys
 
 import numpy as np
 from gap_flow import rough
-from reynoldsflow import transport
+from suite.peer_reynoldsflow import transmissivity
 
 import roughcontact as rc
-from roughcontact.validation import Array
 
 PRESSURES = (0.005, 0.02, 0.035, 0.045, 0.055)  # over E*
 
 
-def peer(gap: Array, mode: str) -> float:
-    """Return the transmissivity of a gap along axis 0 by ReynoldsFlow, in units of its mean gap cubed."""
-    driven = {"pressure": {"p_west": 1.0, "p_east": 0.0}, "periodic": {"pressure_gradient": 1.0}}[mode]
-    kept, _, flux = transport.solve_fluid_problem(gap / gap.mean(), boundary_mode=mode, **driven)
-    if flux is None:
-        return 0.0
-    return float(transport.compute_total_flux(kept, flux, len(gap), boundary_mode=mode)[0])
-
-
 def main(cells: int) -> None:
     """Print the table."""
-    transport.set_verbosity("error")
     print("| p/E* | A/A0 | sides | roughcontact | ReynoldsFlow | difference | interval |")
     print("|---|---|---|---|---|---|---|")
     for mode, periodic in (("periodic", (True, True)), ("pressure", (False, True))):
@@ -40,7 +29,7 @@ def main(cells: int) -> None:
             flow = rc.gap_flow(solution, axis=None if all(periodic) else 0, tolerance=1e-9)
             unit = float(flow.gap.mean()) ** 3
             own, (low, high) = flow.transmissivity[0, 0] / unit, (each[0, 0] / unit for each in flow.interval)
-            other = peer(np.array(flow.gap), mode)
+            other = transmissivity(np.array(flow.gap), mode)
             print(
                 f"| {pressure:g} | {solution.contact_fraction:.3f} | {mode} | {own:.6g} | {other:.6g} "
                 f"| {other / own - 1:+.0e} | {low:.4g} to {high:.4g} |",
