@@ -129,3 +129,21 @@ def ended(served, how=signal.SIGINT):
         raise
     finally:
         served.process.stdout.close()
+
+
+def opened_again(page, address):
+    """Show the page as a new tab would, in the session of what it showed before.
+
+    A new session takes two processes, each of which presses maps before its first request: most of the time of a test.
+    """
+    if page.url != "about:blank":
+        page.goto(
+            address.partition("?")[0] + "page.css"
+        )  # the page is left, and notes its session and its state
+        page.evaluate(
+            """() => {
+              const { session } = JSON.parse(sessionStorage.getItem("roughcontact"));
+              sessionStorage.setItem("roughcontact", JSON.stringify({ session }));
+            }"""
+        )
+    page.goto(address)

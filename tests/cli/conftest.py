@@ -10,6 +10,18 @@ assert loop  # imported before tests replace functions that it takes over
 
 
 @pytest.fixture
+def drawn():
+    """Draw the pictures of a test that looks at their files."""
+
+
+@pytest.fixture(autouse=True)
+def _pictures(request):
+    """Leave pictures empty unless a test is `drawn`: drawing takes longer than most commands."""
+    if "drawn" not in request.fixturenames:
+        request.getfixturevalue("undrawn")
+
+
+@pytest.fixture
 def invoke():
     """Run the program in this process; the answer has exit_code, stdout, stderr and exception."""
 

@@ -34,6 +34,7 @@ def whole(tmp_path):
     return tmp_path / "whole.npz"
 
 
+@pytest.mark.usefixtures("drawn")
 def test_a_press_answers_as_the_library_does(invoke, rough, tmp_path):
     answer = invoke(
         "adhesion", "press", rough, "--depth", "-20nm", *MODULUS, *STICKS, "--json", "--out", tmp_path / "out"
@@ -69,6 +70,7 @@ def test_a_press_tells_tension_and_stability(invoke, rough):
         assert words in told
 
 
+@pytest.mark.usefixtures("drawn")
 def test_a_curve_answers_as_the_library_does(invoke, rough, tmp_path):
     answer = invoke("adhesion", "curve", rough, *FEW, *MODULUS, *STICKS, "--json", "--out", tmp_path / "out")
     assert answer.exit_code == 0, answer.stderr

@@ -175,6 +175,7 @@ def test_json_holds_the_laws(invoke, study, averaged):
     assert law["law_count"] == 8
 
 
+@pytest.mark.usefixtures("drawn")
 def test_pictures_are_drawn(invoke, study, tmp_path):
     begins = {"png": b"\x89PNG", "pdf": b"%PDF", "svg": b"<?xml"}
     for ending, words in (
@@ -191,6 +192,7 @@ def test_pictures_are_drawn(invoke, study, tmp_path):
     assert told["quantity"] == "dimensionless_stiffness"
 
 
+@pytest.mark.usefixtures("drawn")
 def test_a_picture_at_one_load_is_of_the_stiffness_per_area(invoke, study, tmp_path, monkeypatch):
     drawn = []
     monkeypatch.setattr("roughcontact.plot.canvas.save", lambda figure, out: drawn.append(figure))

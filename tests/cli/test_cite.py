@@ -7,8 +7,6 @@ import pytest
 from roughcontact import viscoelastic
 from roughcontact.citing.bibliography import references
 
-pytestmark = pytest.mark.usefixtures("undrawn")
-
 MODULUS = ("--modulus", "1GPa")
 LINES = {
     "press": ("--force", "1mN", *MODULUS),

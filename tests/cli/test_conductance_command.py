@@ -85,6 +85,7 @@ def test_of_the_interface(invoke, curve):
     assert (np.array(interface) < np.array(total)).all()
 
 
+@pytest.mark.usefixtures("drawn")
 def test_a_folder_serves_and_gets_files(invoke, curve):
     answer = invoke("conductance", curve.parent, *COPPER, "--out", curve.parent)
     assert answer.exit_code == 0

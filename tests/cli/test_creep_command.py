@@ -33,6 +33,7 @@ def by_hand(**given):
     return rc.viscoelastic_curve(surface, rc.Viscoelastic.read("rubber.toml"), **given)
 
 
+@pytest.mark.usefixtures("drawn")
 def test_the_given_times_are_on_the_screen_and_all_states_in_the_files(creep, here):
     answer = creep(*HISTORY, *QUICK, "--out", "out")
     assert answer.exit_code == 0, answer.stderr

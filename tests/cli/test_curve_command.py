@@ -97,6 +97,7 @@ def test_a_flat_surface_needs_its_loads_named(invoke, tmp_path):
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.usefixtures("drawn")
 def test_files_and_picture_stand_in_the_folder(invoke, rough, tmp_path):
     out = tmp_path / "result"
     answer = invoke("curve", rough, *FORCES, *MODULUS, "--out", out, "--json")
@@ -113,6 +114,7 @@ def test_files_and_picture_stand_in_the_folder(invoke, rough, tmp_path):
     assert (out / "curve.png").read_bytes().startswith(b"\x89PNG")
 
 
+@pytest.mark.usefixtures("drawn")
 def test_the_picture_has_its_format_and_names_theories_as_the_option_does(
     invoke, rough, tmp_path, monkeypatch
 ):
@@ -129,7 +131,6 @@ def test_the_picture_has_its_format_and_names_theories_as_the_option_does(
     assert legend[-2:] == ["gw", "persson"]
 
 
-@pytest.mark.usefixtures("undrawn")
 def test_one_folder_serves_press_and_curve(invoke, rough, tmp_path):
     out = tmp_path / "result"
     assert invoke("press", rough, "--force", "1mN", *MODULUS, "--out", out).exit_code == 0
@@ -171,7 +172,6 @@ def test_an_interrupt_before_the_first_load_leaves_nothing(invoke, rough, monkey
     assert not (tmp_path / "out").exists()
 
 
-@pytest.mark.usefixtures("undrawn")
 @pytest.mark.parametrize("verb", ["press", "curve"])
 def test_flat_heights_are_answered(invoke, tmp_path, verb):
     np.savez(tmp_path / "flat.npz", heights=np.zeros((8, 8)), spacing=1e-6, unit="m")
@@ -180,7 +180,6 @@ def test_flat_heights_are_answered(invoke, tmp_path, verb):
     assert answer.exit_code == 0
 
 
-@pytest.mark.usefixtures("undrawn")
 def test_theories_stand_beside_the_curve(invoke, rough, tmp_path):
     folder = tmp_path / "result"
     words = ("curve", rough, *FORCES, *MODULUS, "--theory", "persson, power-law", "--hurst", "0.8")
@@ -324,7 +323,6 @@ def test_units_that_are_none_are_refused_before_the_work(invoke, rough, option, 
     assert "Pressing" not in answer.stderr
 
 
-@pytest.mark.usefixtures("undrawn")
 def test_a_theory_that_does_not_apply_is_left_out_and_the_curve_is_kept(invoke, rough, tmp_path):
     folder = tmp_path / "result"
     words = (
@@ -390,7 +388,6 @@ def test_no_stiffness_of_flowing_spots_is_drawn_beside_that_of_a_plastic_curve(
     assert "stiffness" in elastic.quantities
 
 
-@pytest.mark.usefixtures("undrawn")
 def test_errors_are_those_of_the_first_and_the_last_resolved_load(invoke, rough, surface, tmp_path):
     words = ("curve", rough, *FORCES, *MODULUS, "--level", "none", "--errors")
     answer = invoke(*words, "--json", "--out", tmp_path / "out")
@@ -424,7 +421,6 @@ def test_without_a_resolved_load_there_are_no_errors_and_a_note_says_so(invoke, 
     assert "Note: no errors: no load is resolved" in answer.stderr
 
 
-@pytest.mark.usefixtures("undrawn")
 def test_an_interrupt_keeps_the_loads_that_are_done(invoke, rough, monkeypatch, tmp_path):
     whole = loading.solutions_along
 
@@ -469,7 +465,6 @@ def test_a_curve_that_is_stopped_in_its_first_load_keeps_nothing(invoke, rough, 
     assert not (tmp_path / "out").exists()
 
 
-@pytest.mark.usefixtures("undrawn")
 def test_a_loop_writes_its_branches_and_the_flattened_surface(invoke, rough, surface, tmp_path):
     words = ("curve", rough, *FORCES, *MODULUS, "--level", "none", "--hardness", "2GPa")
     answer = invoke(*words, "--loop", "--flow", "raised", "--json", "--out", tmp_path / "out")
@@ -516,7 +511,6 @@ def test_a_loop_takes_the_hardness_of_the_softer_material(invoke, rough):
     assert json.loads(answer.stdout)["loop"]["flow_volume"] > 0
 
 
-@pytest.mark.usefixtures("undrawn")
 def test_an_interrupt_of_a_loop_keeps_first_loading(invoke, rough, monkeypatch, tmp_path):
     whole = loading.solutions_along
 

@@ -24,6 +24,7 @@ def rough(tmp_path):
     return tmp_path / "rough.npz"
 
 
+@pytest.mark.usefixtures("drawn")
 def test_the_numbers_are_those_of_the_library(invoke, rough, tmp_path):
     words = ("adhesion", "detach", rough, "--depth", "1.5e-7m", *GIVEN, *FALLING)
     answer = invoke(*words, "--json", "--out", tmp_path / "out")

@@ -12,8 +12,6 @@ import roughcontact as rc
 from roughcontact.labels.column import names_of
 from roughcontact.labels.contact_columns import REFLECTION
 
-pytestmark = pytest.mark.usefixtures("undrawn")
-
 NAMES = names_of(REFLECTION)
 GIVEN = ("--materials", "steel,aluminium", "--pressures", "10MPa,100MPa")
 SOUND = ("--frequency", "5MHz")

@@ -39,6 +39,7 @@ def test_the_numbers_of_an_independent_code(invoke, joint, gas, beside):
     assert max(record["conductance_interaction"]) < 0.2
 
 
+@pytest.mark.usefixtures("drawn")
 def test_files_and_screen_hold_the_parts(invoke, joint, tmp_path):
     out = tmp_path / "out"
     words = (

@@ -119,6 +119,7 @@ def test_one_load_gives_a_height_only(run):
     assert "parameter" not in printed
 
 
+@pytest.mark.usefixtures("drawn")
 def test_the_answer_is_kept_repeated_and_done_by_the_printed_python(run):
     told = record(run(f"{LINE} {FACES} --json"))
     assert run(f"{LINE} {FACES} --out kept").exit_code == 0

@@ -40,6 +40,7 @@ def computed(home, field, bodies=("steel", "aluminium"), **named):
     return surface, curve, rc.hurst_exponent(surface).longest_wave
 
 
+@pytest.mark.usefixtures("drawn")
 def test_a_bolt_under_shear(joint, home, tmp_path):
     out = tmp_path / "out"
     answer = joint(

@@ -45,6 +45,7 @@ def number(words, unit):
     return float(found.split()[0])
 
 
+@pytest.mark.usefixtures("drawn")
 def test_a_periodic_map_is_a_sample_of_a_seal(invoke, tile, tmp_path):
     out = tmp_path / "out"
     answer = invoke("leak", tile, *BODIES, *WATER, *SEAL, "--axis", "1", "--out", out)

@@ -32,6 +32,7 @@ def torn(tmp_path_factory):
     return path
 
 
+@pytest.mark.usefixtures("drawn")
 def test_the_flow_stands_in_table_and_files(invoke, tile, tmp_path):
     out = tmp_path / "out"
     answer = invoke("curve", tile, *BODIES, *LOADS, "--leak", "1", "--table", "csv", "--out", out)
@@ -75,7 +76,6 @@ def test_the_python_that_is_printed_measures_the_flow(invoke, torn):
     assert record["hydraulic_gap"] == space["curve"].measured["hydraulic_gap"].tolist()
 
 
-@pytest.mark.usefixtures("undrawn")
 def test_stored_loads_are_those_of_the_same_flow(invoke, tile, tmp_path):
     """A further load is joined to them; a curve along the other axis, or without a flow, is computed anew."""
     asked = ("curve", tile, *BODIES, "--out", tmp_path / "out", "--pressures")

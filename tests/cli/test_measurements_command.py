@@ -9,7 +9,6 @@ import xarray
 import roughcontact as rc
 from tables import read_table
 
-pytestmark = pytest.mark.usefixtures("undrawn")
 GRID = rc.Grid((96, 128), (2e-6, 1e-6))
 PLACES = ("place0.npz", "place1.npz", "place2.npz")
 

@@ -145,6 +145,7 @@ def test_what_a_reader_should_know_is_a_note(invoke, rough, surface):
     assert "Note: The cells at the edge of the map carry" in notes[-1]
 
 
+@pytest.mark.usefixtures("drawn")
 def test_files_and_picture_stand_in_the_folder(invoke, rough, tmp_path):
     out = tmp_path / "new" / "result"
     answer = invoke("press", rough, *FORCE, *MODULUS, "--out", out, "--json")
@@ -245,6 +246,7 @@ class TestNothingHalfWritten:
         assert "is a file" in answer.stderr
 
 
+@pytest.mark.usefixtures("drawn")
 def test_the_distribution_of_the_pressure_is_drawn_beside_a_theory(invoke, rough, tmp_path):
     words = ("press", rough, "--force", "1N", "--modulus", "110GPa", "--theory", "persson")
     answer = invoke(*words, "--out", tmp_path / "result")
@@ -315,6 +317,7 @@ def test_a_soft_body_is_pressed_if_its_unit_is_given(invoke, rough):
         assert invoke("press", rough, "--depth", "10nm", "--modulus", modulus).exit_code == 0
 
 
+@pytest.mark.usefixtures("drawn")
 @pytest.mark.parametrize(("form", "magic"), [("png", b"\x89PNG"), ("pdf", b"%PDF"), ("svg", b"<?xml")])
 def test_pictures_come_in_the_format_that_is_asked_for(invoke, rough, tmp_path, form, magic):
     out = tmp_path / "result"
@@ -442,6 +445,7 @@ def test_a_cutoff_that_is_not_taken_is_refused_before_the_work(invoke, rough):
         assert answer.stdout == ""
 
 
+@pytest.mark.usefixtures("drawn")
 def test_a_load_after_a_larger_one_is_on_what_that_left(invoke, rough, surface, tmp_path):
     words = ("press", rough, "--force", "0.2N", "--after", "1N", "--modulus", "110GPa", "--level", "none")
     answer = invoke(*words, "--hardness", "5GPa", "--json", "--out", tmp_path / "out")

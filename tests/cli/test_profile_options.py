@@ -39,6 +39,7 @@ def test_a_load_is_that_of_the_library(invoke, line, scan, body, force):
     assert record["kind"] == "profile"
 
 
+@pytest.mark.usefixtures("drawn")
 @pytest.mark.parametrize("body", BODIES)
 def test_a_curve_is_that_of_the_library_and_its_files_are_there(invoke, line, scan, body, tmp_path):
     out = tmp_path / "out"
@@ -70,6 +71,7 @@ def test_units_on_the_screen_are_those_of_the_body(invoke, scan):
     assert facts["stiffness"].strip().endswith("GN/m²")
 
 
+@pytest.mark.usefixtures("drawn")
 def test_the_picture_of_a_load_is_written(invoke, scan, tmp_path):
     out = tmp_path / "out"
     answer = invoke("press", scan, "--profile", "line", "--depth", "50nm", *MODULUS, "--out", out)

@@ -9,7 +9,6 @@ from typer.testing import CliRunner
 
 from roughcontact.cli.app import app
 
-pytestmark = pytest.mark.usefixtures("undrawn")
 RUNNER = CliRunner()
 JOB = """
 format = 1

@@ -8,8 +8,6 @@ import pytest
 import roughcontact as rc
 from roughcontact.contact import loading
 
-pytestmark = pytest.mark.usefixtures("undrawn")
-
 LOADS = ("--forces", "1mN,2mN", "--modulus", "1GPa")
 
 

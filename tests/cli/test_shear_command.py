@@ -35,6 +35,7 @@ def shear(invoke, home):
     return run
 
 
+@pytest.mark.usefixtures("drawn")
 def test_the_table_is_the_law_of_the_normal_curve(shear, home, tmp_path):
     out = tmp_path / "out"
     answer = shear("--out", out)
@@ -166,6 +167,7 @@ def _missed(follow):
     return path
 
 
+@pytest.mark.usefixtures("drawn")
 def test_partial_slip_stands_beside_the_law(shear, home, tmp_path):
     out = tmp_path / "out"
     answer = shear("--compute", "--out", out)

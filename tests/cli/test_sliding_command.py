@@ -36,6 +36,7 @@ def slide(invoke, home):
     return run
 
 
+@pytest.mark.usefixtures("drawn")
 def test_the_table_is_the_curve_with_the_theory_beside_it(slide, home, tmp_path):
     out = tmp_path / "out"
     answer = slide("--direction", "30deg", "--out", out)

@@ -48,6 +48,7 @@ def here(tmp_path, monkeypatch):
     return tmp_path
 
 
+@pytest.mark.usefixtures("drawn")
 def test_a_study_of_a_job_runs(invoke, here):
     answer = invoke(
         *("study", "from", "job.toml", "--vary", "preparation.level=plane, quadratic"),

@@ -47,6 +47,7 @@ def test_spectrum_says_what_the_library_says(invoke, free):
     assert [record["m0"], record["m2"], record["m4"]] == pytest.approx([moments.m0, moments.m2, moments.m4])
 
 
+@pytest.mark.usefixtures("drawn")
 def test_spectrum_writes_a_table_that_numpy_reads_and_a_picture(invoke, free, tmp_path):
     path, surface = free
     out = tmp_path / "out"
@@ -311,6 +312,7 @@ def spiky(tmp_path):
     return tmp_path / "spiky.npz", made
 
 
+@pytest.mark.usefixtures("drawn")
 def test_info_draws_the_spikes_that_it_counts(invoke, spiky, tmp_path, monkeypatch):
     path, _ = spiky
     drawn, make = [], canvas.surface_figure

@@ -101,6 +101,7 @@ def test_a_table_that_a_program_cannot_read_is_explained_and_the_curve_is_kept(i
     assert (out / "curve.csv").exists()
 
 
+@pytest.mark.usefixtures("drawn")
 def test_a_curve_without_a_law_says_so_and_is_kept(invoke, joint, tmp_path):
     out = tmp_path / "out"
     words = ("--forces", "1nN,2nN", "--modulus", "110GPa", "--table", "abaqus", "--out", out)

@@ -22,10 +22,11 @@ from typer.testing import CliRunner
 
 import roughcontact as rc
 from roughcontact.cli.app import app
-from served import PATIENCE, ended, started
+from served import PATIENCE, ended, opened_again, started
 
 pytestmark = pytest.mark.slow
 
+SCREEN = {"width": 1400, "height": 1000}
 DROP = """([name, text]) => {
   const data = new DataTransfer();
   data.items.add(new File([Uint8Array.from(atob(text), (c) => c.charCodeAt(0))], name));
@@ -128,9 +129,14 @@ class Desk:
         page.on("console", lambda line: told.append(line.text) if line.type == "error" else None)
         page.on("pageerror", lambda error: told.append(str(error)))
         page.on("request", lambda sent: self._elsewhere(sent.url) and told.append(sent.url))
-        page.goto(self.served.address)
-        page.locator("#example option").nth(1).wait_for(state="attached", timeout=1000 * PATIENCE)
-        return Tab(page, told)
+        tab = Tab(page, told)
+        self.show(tab)
+        return tab
+
+    def show(self, tab):
+        """Show the page as in a new tab; in the same one its session goes on, whose processes are warm."""
+        opened_again(tab.page, self.served.address)
+        tab.page.locator("#example option").nth(1).wait_for(state="attached", timeout=1000 * PATIENCE)
 
     def _elsewhere(self, url):
         return not url.startswith((self.origin, "data:", "blob:"))
@@ -139,19 +145,24 @@ class Desk:
 @pytest.fixture(scope="module")
 def desk(chromium, tmp_path_factory):
     served = started(tmp_path_factory.mktemp("desk"))
-    context = chromium.new_context(viewport={"width": 1400, "height": 1000}, accept_downloads=True)
+    context = chromium.new_context(viewport=SCREEN, accept_downloads=True)
     yield Desk(served, context)
     context.close()
     ended(served)
 
 
+@pytest.fixture(scope="module")
+def opened(desk):
+    return desk.tab()
+
+
 @pytest.fixture
-def tab(desk):
-    """A new tab, in which no script fails and which asks nobody else for anything."""
-    found = desk.tab()
-    yield found
-    found.page.close()
-    assert found.told == []
+def tab(desk, opened):
+    """A tab without files and settings, as a new one; its session may hold files of tests before."""
+    desk.show(opened)
+    opened.told.clear()
+    yield opened
+    assert opened.told == []
 
 
 @pytest.fixture(scope="module")
@@ -337,13 +348,16 @@ def test_two_tabs_do_not_disturb_each_other(desk, tab):
 
 
 def test_the_files_of_a_tab_go_with_it(desk, tab, part):
-    other = desk.tab()
+    before, other = desk.served.left(), desk.tab()
     assert tab.drop("part.npz", part)
     assert other.drop("other.npz", part)
-    # Files of tabs that were closed before go after some seconds.
-    tab.until(lambda: {path.name for path in desk.served.left()} == {"part.npz", "other.npz"})
+
+    def new():
+        return {path.name for path in desk.served.left() if path not in before}
+
+    tab.until(lambda: new() == {"part.npz", "other.npz"})
     other.page.close(run_before_unload=True)
-    tab.until(lambda: {path.name for path in desk.served.left()} == {"part.npz"})
+    tab.until(lambda: new() == {"part.npz"})
 
 
 def test_a_worker_that_is_killed_is_said_and_replaced(desk, tab):
@@ -371,12 +385,12 @@ def test_the_example_that_is_open_is_computed_again_when_it_is_chosen_again(tab)
 
 
 def test_a_gigabyte_is_refused_before_it_is_sent(desk, tab, tmp_path):
-    large = tmp_path / "large.x3p"
+    before, large = desk.served.left(), tmp_path / "large.x3p"
     with large.open("wb") as file:
         file.truncate(2**30)  # of which the disk holds nothing
     tab.page.set_input_files("#file", large)
     tab.wait("() => document.getElementById('said').textContent.includes('512 MB')")
-    tab.until(lambda: [path.name for path in desk.served.left()] == [])
+    tab.until(lambda: {*desk.served.left()} <= {*before})
 
 
 @pytest.fixture
@@ -689,8 +703,15 @@ SCROLLED = """() => {
 }"""
 
 
-def test_a_narrow_screen_has_the_map_first_and_nothing_beyond_its_width(tab, part):
+@pytest.fixture
+def narrow(tab):
     tab.page.set_viewport_size({"width": 400, "height": 800})
+    yield tab
+    tab.page.set_viewport_size(SCREEN)
+
+
+def test_a_narrow_screen_has_the_map_first_and_nothing_beyond_its_width(narrow, part):
+    tab = narrow
     assert tab.drop("part.npz", part)
     tab.settled()
     computed(tab, "pressures", "1 MPa:4 MPa:3")

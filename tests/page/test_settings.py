@@ -12,7 +12,7 @@ from roughcontact.recipe.plastic_flow import AfterLoad
 from roughcontact.recipe.preparation import Preparation
 from roughcontact.recipe.recipe_fields import specs
 from roughcontact.recipe.source import File
-from served import PATIENCE, ended, started
+from served import PATIENCE, ended, opened_again, started
 
 WAITING = """() => ["view", "surface"].some((id) => document.getElementById(id).getAttribute("aria-busy") === "true")
   || document.querySelector("main").inert || document.getElementById("slider").disabled"""
@@ -122,20 +122,22 @@ def server(tmp_path_factory):
 
 
 @pytest.fixture(scope="module")
-def context(chromium, server):
-    found = chromium.new_context(viewport={"width": 1400, "height": 1000})
-    yield found
-    found.close()
-
-
-@pytest.fixture
-def person(context, server):
+def opened(chromium):
+    """A page, and what its scripts tell of errors."""
+    context = chromium.new_context(viewport={"width": 1400, "height": 1000})
     page, told = context.new_page(), []
     page.on("pageerror", lambda error: told.append(str(error)))
     page.on("console", lambda line: told.append(line.text) if line.type == "error" else None)
-    page.goto(server.address)
+    yield page, told
+    context.close()
+
+
+@pytest.fixture
+def person(opened, server):
+    page, told = opened
+    opened_again(page, server.address)
+    told.clear()
     yield Person(page)
-    page.close()
     assert told == []
 
 

@@ -1,5 +1,7 @@
 """The picture of a measured joint: points, errors and bands are those of the inference, in the units asked for."""
 
+from functools import cache
+
 import numpy as np
 import pytest
 
@@ -9,6 +11,20 @@ P = np.array([7e6, 15e6, 30e6, 65e6, 140e6])
 GIVEN = {"modulus": 115e9, "modulus_error": 0.02, "area": 2e-4, "branch": "loading"}
 STIFFNESS = rc.infer_joint(rc.JointStiffness(P, 1.9e7 * P**0.88, 0.05, gain=0.03), **GIVEN)
 CLOSURE = rc.infer_joint(rc.JointClosures(P, P**0.12 / 0.12 / 1.9e7, 1e-8), **GIVEN)
+
+
+@pytest.fixture(autouse=True, scope="module")
+def _closures_predicted_once():
+    """Those of 4000 joints take seconds, and the same joints are drawn each time."""
+    predict = rc.JointInference.predicted_closures
+    known = cache(lambda found, level, *pressures: predict(found, np.array(pressures), level))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(
+            rc.JointInference,
+            "predicted_closures",
+            lambda found, pressures, level=0.9: known(found, level, *pressures),
+        )
+        yield
 
 
 @pytest.mark.parametrize(
