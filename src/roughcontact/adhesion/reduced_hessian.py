@@ -106,30 +106,29 @@ def smallest_ratio(
     block = max(BLOCK, len(start) + 1)
     while len(first) < block:
         first.append(precondition(weight * rng.standard_normal(free.shape)))
-    basis, images = first, [image(x) for x in first]
-    old: list[tuple[Array, Array]] = []
-    value, bound, vectors = 1.0, np.inf, tuple(first)
+    basis, images = np.array(first), np.array([image(x) for x in first])
+    value, bound, x, residual = 1.0, np.inf, basis, basis[0]
     for _ in range(STEPS):
         coefficients, values = _ritz(form, basis, images, weight)  # E32
-        count = min(block, len(values))
-        chosen = [coefficients[:, k] for k in range(count)]
-        x = [_combined(c, basis) for c in chosen]
-        kx = [_combined(c, images) for c in chosen]
-        # The contribution of the newer parts is the direction of the next step.
-        old = [(_combined(c[block:], basis[block:]), _combined(c[block:], images[block:])) for c in chosen]
+        chosen = coefficients[:, :block].T
+        x, kx = _combined(chosen, basis), _combined(chosen, images)
         residuals = [project((1 - v) * k - weight * y) for v, k, y in zip(values, kx, x, strict=False)]
         preconditioned = [precondition(r) for r in residuals]
-        value = float(values[0])
-        bound = float(np.sqrt(max(0.0, form.dot(residuals[0], preconditioned[0]))))  # E33
-        vectors = tuple(x)
+        value, residual = float(values[0]), residuals[0]
+        bound = float(np.sqrt(max(0.0, form.dot(residual, preconditioned[0]))))  # E33
         # E34
         if bound <= accuracy or (sign_only and (value < 0 or bound <= min(RELIABLE, value / 4))):
             break
-        basis, images = [*x, *preconditioned], [*kx, *(image(s) for s in preconditioned)]
-        if len(coefficients) > block:
-            basis += [p for p, _ in old]
-            images += [p for _, p in old]
-    return Ritz(value, bound, vectors, residuals[0])
+        # The contribution of the newer parts is the direction of the next step.
+        newer = chosen[:, block:]
+        old = (
+            [_combined(newer, fields[block:]) for fields in (basis, images)]
+            if newer.size
+            else [basis[:0]] * 2
+        )
+        basis = np.concatenate([x, preconditioned, old[0]])
+        images = np.concatenate([kx, [image(s) for s in preconditioned], old[1]])
+    return Ritz(value, bound, tuple(x), residual)
 
 
 def solved_bound(form: ElasticForm, free: Mask, ritz: Ritz) -> float:
@@ -142,15 +141,9 @@ def solved_bound(form: ElasticForm, free: Mask, ritz: Ritz) -> float:
     return float(np.sqrt(max(0.0, form.dot(ritz.residual, solved))))
 
 
-def _ritz(form: ElasticForm, basis: list[Array], images: list[Array], weight: Array) -> tuple[Array, Array]:
+def _ritz(form: ElasticForm, basis: Array, images: Array, weight: Array) -> tuple[Array, Array]:
     """Return the coefficients of the Ritz vectors and their values, from the smallest up."""
-    size = len(basis)
-    elastic, adhesive = np.empty((size, size)), np.empty((size, size))
-    for i in range(size):
-        weighted = weight * basis[i]
-        for j in range(size):
-            elastic[i, j] = form.dot(basis[i], images[j])
-            adhesive[i, j] = form.dot(weighted, basis[j])
+    elastic, adhesive = form.dots(basis, images), form.dots(basis, weight * basis)
     norms = np.sqrt(np.maximum(np.diagonal(elastic), 0.0))
     scale = np.divide(1.0, norms, out=np.zeros_like(norms), where=norms > 0)
     elastic = scale[:, None] * (elastic + elastic.T) / 2 * scale
@@ -163,10 +156,6 @@ def _ritz(form: ElasticForm, basis: list[Array], images: list[Array], weight: Ar
     return np.asarray(coefficients), np.asarray(1 - ratios[::-1])
 
 
-def _combined(coefficients: Array, fields: list[Array]) -> Array:
-    if not fields:
-        return np.zeros(())
-    answer = coefficients[0] * fields[0]
-    for c, f in zip(coefficients[1:], fields[1:], strict=True):
-        answer = answer + c * f
-    return np.asarray(answer)
+def _combined(coefficients: Array, fields: Array) -> Array:
+    """Return one sum of the fields for each row of coefficients."""
+    return np.asarray(np.tensordot(coefficients, fields, 1))
