@@ -46,6 +46,7 @@ MOST = 100.0  # damping at which a step that does not lower the energy is due to
 UNDER = 0.05  # damping if the undamped Hessian is indefinite
 CLOSE = 1e-2  # residual below which an equilibrium is searched
 FALLEN = 0.1  # of the largest residual so far: an equilibrium is searched below it
+RISEN = 10.0  # times the residual: the next one at most while the flow leaves the end of a branch; then it has left
 COARSE = 1e-5  # residual of a coarse equilibrium near the end
 TRIALS = 15  # Newton steps toward an equilibrium
 WAIT = 3  # steps between two such trials
@@ -93,7 +94,8 @@ def flow(
     lost, wait = 0.0, 0
     # A jump begins close to the end of a branch, where the flow is slow, and linear along one direction: the damping
     # only has to keep the Hessian definite.
-    largest, leaving = 0.0, energy.residual(point) <= CLOSE * energy.scale(point)
+    first = largest = energy.residual(point)
+    leaving = first <= CLOSE * energy.scale(point)
     damping = LEAST if leaving else FIRST
     for _ in range(STEPS):
         residual, scale = energy.residual(point), energy.scale(point)
@@ -101,7 +103,8 @@ def flow(
         if residual <= TOLERANCE * scale:
             return FlowResult(Equilibrium(point, residual / scale, True, lost), lost)
         close = residual <= CLOSE * scale
-        largest, leaving = max(largest, residual), leaving and close
+        largest = max(largest, residual)
+        leaving = leaving and close and (largest <= RISEN * first or residual > FALLEN * largest)
         if close and damping < LEAST and residual <= FALLEN * largest:  # E19
             if wait == 0:
                 end = _end(energy, point, convex, counter)
@@ -116,7 +119,7 @@ def flow(
             energy.form, free, curvature - damping * weights, -point.reaction, FORCING, counter
         )
         found = None if negative else line_search(energy, point, step, counter)
-        if found is None:  # E21
+        if found is None or (leaving and energy.residual(found[0]) > RISEN * residual):  # E21
             if damping <= MOST:
                 damping = max(4 * damping, SOFTEST if leaving else UNDER)
             elif not uniform:

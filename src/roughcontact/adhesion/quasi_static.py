@@ -30,7 +30,7 @@ MOVED = 1e-2  # of the range of the attraction: a smaller change is not a jump
 ON_THE_WAY = (
     1e-8  # residual of states of a retreat between the prescribed values, whose force may be the lowest
 )
-APPROACHING = 1e-5  # residual of such states of an approach: they only start the next step
+APPROACHING = 1e-4  # residual of such states of an approach: they only start the next step
 COARSE = 1e-4  # residual of a first, coarse solution of a step
 SURE = 1e-5  # accuracy of an eigenvalue whose sign is needed
 LONGER = 4.0  # times the last step: the next one at most
@@ -186,7 +186,7 @@ class QuasiStatic:
             # Between prescribed values the residual may be larger, in proportion to the step: a step as short as the
             # bracket has the residual of a state at a prescribed value.
             loosest = ON_THE_WAY if retreats else APPROACHING
-            tolerance = TOLERANCE if value == target else min(loosest, TOLERANCE * length / self.bracket)
+            tolerance = TOLERANCE if value == target else min(loosest, 10*TOLERANCE * length / self.bracket)
             # After a rejection more follow, and a coarse solution detects most of them.
             coarse = (COARSE,) if steps.rejected < math.inf and tolerance < COARSE else ()
             predicted = moved.displacement + length * slope
@@ -266,7 +266,7 @@ class QuasiStatic:
         ritz = smallest_ratio(
             energy.form, free, curvature, self.counter, start=start, accuracy=SURE, sign_only=True
         )
-        self._vectors = ritz.vectors[:1]
+        self._vectors = ritz.vectors
         softer = curvature - np.where(other.free, energy.attraction.curvature(other.gap), 0.0)
         more = sum(energy.form.dot(softer * x, x) for x in self._vectors)
         self._eigenvalues = ritz.value + more, ritz.value

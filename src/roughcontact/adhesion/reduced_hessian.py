@@ -37,7 +37,7 @@ class Ritz:
     value, bound : float
         An eigenvalue lies within `bound` of `value`; no eigenvalue is above one. The smallest is at most `value`.
     vectors : tuple of arrays
-        Start vectors of the next search.
+        The Ritz vector: the start of the next search. Empty without attraction.
     residual : array
         Residual of the first vector, whose elastic norm is one.
     """
@@ -87,11 +87,14 @@ def smallest_ratio(
     if not np.any(free & (curvature > 0)):
         return Ritz(1.0, 0.0, (), np.zeros(free.shape))
     rng = np.random.default_rng(seed)
-    number = float(np.count_nonzero(free))
+    mask, number = free.astype(np.float64), float(np.count_nonzero(free))
+    weight = mask * curvature
 
     def project(x: Array) -> Array:
-        x = np.where(free, x, 0.0)
-        return np.where(free, x - x.sum() / number, 0.0) if form.mean_free else x
+        x *= mask
+        if form.mean_free:
+            x -= mask * (x.sum() / number)
+        return x
 
     def precondition(r: Array) -> Array:
         counter.products += 1
@@ -99,36 +102,40 @@ def smallest_ratio(
 
     def image(x: Array) -> Array:
         counter.products += 1
-        return np.where(free, form.stiffness(x), 0.0)
+        return form.stiffness(x) * mask
 
-    weight = np.where(free, curvature, 0.0)
-    first = [project(v) for v in start]  # E31
     block = max(BLOCK, len(start) + 1)
-    while len(first) < block:
-        first.append(precondition(weight * rng.standard_normal(free.shape)))
-    basis, images = np.array(first), np.array([image(x) for x in first])
-    value, bound, x, residual = 1.0, np.inf, basis, basis[0]
+    # Large arrays are allocated once: a third takes what is computed from the other two.
+    basis, images, spare = (np.empty((3 * block, *free.shape)) for _ in range(3))
+    for k in range(block):  # E31
+        given = k < len(start)
+        basis[k] = project(np.array(start[k])) if given else precondition(weight * rng.standard_normal(free.shape))
+        images[k] = image(basis[k])
+    size = block
     for _ in range(STEPS):
-        coefficients, values = _ritz(form, basis, images, weight)  # E32
+        np.multiply(weight, basis[:size], out=spare[:size])
+        coefficients, values = _ritz(form, basis[:size], images[:size], spare[:size])  # E32
         chosen = coefficients[:, :block].T
-        x, kx = _combined(chosen, basis), _combined(chosen, images)
-        residuals = [project((1 - v) * k - weight * y) for v, k, y in zip(values, kx, x, strict=False)]
+        count = len(chosen)
+        # The contribution of the newer parts is the direction of the next step.
+        newer = np.where(np.arange(size) < block, 0.0, chosen)
+        both = np.concatenate([chosen, newer]) if size > block else chosen
+        basis, spare = _combined(both, basis, spare), basis
+        images, spare = _combined(both, images, spare), images
+        size, block = len(both), count
+        residuals = [
+            project((1 - v) * k - weight * y) for v, k, y in zip(values, images[:block], basis, strict=False)
+        ]
         preconditioned = [precondition(r) for r in residuals]
-        value, residual = float(values[0]), residuals[0]
-        bound = float(np.sqrt(max(0.0, form.dot(residual, preconditioned[0]))))  # E33
+        value = float(values[0])
+        bound = float(np.sqrt(max(0.0, form.dot(residuals[0], preconditioned[0]))))  # E33
         # E34
         if bound <= accuracy or (sign_only and (value < 0 or bound <= min(RELIABLE, value / 4))):
             break
-        # The contribution of the newer parts is the direction of the next step.
-        newer = chosen[:, block:]
-        old = (
-            [_combined(newer, fields[block:]) for fields in (basis, images)]
-            if newer.size
-            else [basis[:0]] * 2
-        )
-        basis = np.concatenate([x, preconditioned, old[0]])
-        images = np.concatenate([kx, [image(s) for s in preconditioned], old[1]])
-    return Ritz(value, bound, tuple(x), residual)
+        for z in preconditioned:
+            basis[size], images[size] = z, image(z)
+            size += 1
+    return Ritz(value, bound, (np.array(basis[0]),), residuals[0])
 
 
 def solved_bound(form: ElasticForm, free: Mask, ritz: Ritz) -> float:
@@ -141,9 +148,9 @@ def solved_bound(form: ElasticForm, free: Mask, ritz: Ritz) -> float:
     return float(np.sqrt(max(0.0, form.dot(ritz.residual, solved))))
 
 
-def _ritz(form: ElasticForm, basis: Array, images: Array, weight: Array) -> tuple[Array, Array]:
+def _ritz(form: ElasticForm, basis: Array, images: Array, weighted: Array) -> tuple[Array, Array]:
     """Return the coefficients of the Ritz vectors and their values, from the smallest up."""
-    elastic, adhesive = form.dots(basis, images), form.dots(basis, weight * basis)
+    elastic, adhesive = form.dots(basis, images), form.dots(basis, weighted)
     norms = np.sqrt(np.maximum(np.diagonal(elastic), 0.0))
     scale = np.divide(1.0, norms, out=np.zeros_like(norms), where=norms > 0)
     elastic = scale[:, None] * (elastic + elastic.T) / 2 * scale
@@ -156,6 +163,8 @@ def _ritz(form: ElasticForm, basis: Array, images: Array, weight: Array) -> tupl
     return np.asarray(coefficients), np.asarray(1 - ratios[::-1])
 
 
-def _combined(coefficients: Array, fields: Array) -> Array:
-    """Return one sum of the fields for each row of coefficients."""
-    return np.asarray(np.tensordot(coefficients, fields, 1))
+def _combined(coefficients: Array, fields: Array, out: Array) -> Array:
+    """Write one sum of the fields for each row of coefficients to the first fields of `out`, and return `out`."""
+    count, size = coefficients.shape
+    np.matmul(coefficients, fields[:size].reshape(size, -1), out=out[:count].reshape(count, -1))
+    return out
