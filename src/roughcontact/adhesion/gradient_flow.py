@@ -45,8 +45,8 @@ SOFTEST = 1e-5  # smallest damping
 MOST = 100.0  # damping at which a step that does not lower the energy is due to rounding
 UNDER = 0.05  # damping if the undamped Hessian is indefinite
 CLOSE = 1e-2  # residual below which an equilibrium is searched
-FALLEN = 0.1  # of the largest residual so far: an equilibrium is searched below it
-RISEN = 10.0  # times the residual: the next one at most while the flow leaves the end of a branch; then it has left
+RISEN = 10.0  # times the residual: the next one at most while the flow leaves the end of a branch
+FALLEN = 0.1  # of the largest residual so far: below it a flow that has risen has left
 COARSE = 1e-5  # residual of a coarse equilibrium near the end
 TRIALS = 15  # Newton steps toward an equilibrium
 WAIT = 3  # steps between two such trials
@@ -105,7 +105,7 @@ def flow(
         close = residual <= CLOSE * scale
         largest = max(largest, residual)
         leaving = leaving and close and (largest <= RISEN * first or residual > FALLEN * largest)
-        if close and damping < LEAST and residual <= FALLEN * largest:  # E19
+        if close and damping < LEAST and not leaving:  # E19
             if wait == 0:
                 end = _end(energy, point, convex, counter)
                 if end is not None:

@@ -23,7 +23,7 @@ from roughcontact.validation import Array, Mask
 __all__ = ["Ritz", "smallest_ratio", "solved_bound"]
 
 STEPS = 120
-BLOCK = 2
+BLOCK = 2  # Ritz vectors that are improved
 RELIABLE = 0.02  # bound below which a sign is accepted
 DEPENDENT = 1e-12  # of the largest: smaller directions of the basis are left out
 
@@ -109,7 +109,9 @@ def smallest_ratio(
     basis, images, spare = (np.empty((3 * block, *free.shape)) for _ in range(3))
     for k in range(block):  # E31
         given = k < len(start)
-        basis[k] = project(np.array(start[k])) if given else precondition(weight * rng.standard_normal(free.shape))
+        basis[k] = (
+            project(np.array(start[k])) if given else precondition(weight * rng.standard_normal(free.shape))
+        )
         images[k] = image(basis[k])
     size = block
     for _ in range(STEPS):
@@ -123,9 +125,8 @@ def smallest_ratio(
         basis, spare = _combined(both, basis, spare), basis
         images, spare = _combined(both, images, spare), images
         size, block = len(both), count
-        residuals = [
-            project((1 - v) * k - weight * y) for v, k, y in zip(values, images[:block], basis, strict=False)
-        ]
+        improved = zip(values[:BLOCK], images, basis, strict=False)
+        residuals = [project((1 - v) * k - weight * y) for v, k, y in improved]
         preconditioned = [precondition(r) for r in residuals]
         value = float(values[0])
         bound = float(np.sqrt(max(0.0, form.dot(residuals[0], preconditioned[0]))))  # E33
