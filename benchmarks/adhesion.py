@@ -1,6 +1,7 @@
 """Surfaces that stick: whether states depend on the step, and random problems.
 
     python benchmarks/adhesion.py [--surfaces 10] [--approaches 60] [--count 1000]
+    python benchmarks/adhesion.py --strong 256
 
 Ten strongly adhesive rough surfaces, free and periodic in turn, with Irwin's length from 1.5 to 4 cells, are approached
 and drawn back in 10, 20, 50 and 100 steps: forces at the depths that all four share, relative to the largest, and
@@ -9,6 +10,9 @@ depths of the jumps, relative to the way from where the attraction begins. Then 
 gaps relative to the range. Then random problems under random depths or
 forces: certified to 1e-8 and stable, or what their status says. Ends with 1 if numbers of jumps differ, a force by more
 than 1e-6, a jump's depth by more than 1e-6, or if a state is neither certified and stable nor says so.
+
+With --strong, a periodic surface of that many cells a side that sticks strongly is approached in one step from beyond
+the attraction: its jumps, what the way to them takes, and seconds of processor time.
 """
 
 from __future__ import annotations
@@ -16,6 +20,7 @@ from __future__ import annotations
 import argparse
 import math
 import sys
+import time
 from pathlib import Path
 
 import numpy as np
@@ -23,7 +28,7 @@ import numpy as np
 import roughcontact as rc
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
-from sticking import rough, sticky
+from sticking import counted, rough, sticky, strong
 
 STEPS = (1, 2, 5, 10)
 ALLOWED = 1e-6
@@ -114,6 +119,25 @@ def random_problem(number: int) -> list[rc.AdhesiveState]:
     return list(rc.adhesive_path(surface, 1.0, adhesion, forces=forces))
 
 
+def one_step(cells: int) -> int:
+    """Print the jumps of one step into contact and what it takes."""
+    surface, adhesion = strong(cells)
+    depth = 0.3 * float(surface.heights.max() - surface.heights.mean())
+    with counted() as counts:
+        start = time.process_time()
+        *_, end = rc.adhesive_path(surface, 1.0, adhesion, depths=[-40 * adhesion.range, depth])
+        seconds = time.process_time() - start
+    for jump in end.jumps:
+        print(f"jump at {jump.depth:.6f}, lost {jump.lost:.6g}{', ambiguous' * jump.ambiguous}")
+    for name in (name for name in counts if not name.endswith("products")):
+        products = counts.get(f"{name}: products")
+        print(f"{name:22} {counts[name]:5}" + (f"  {products:6} products" if products else ""))
+    print(
+        f"{cells}^2 cells, {len(end.jumps)} jumps, {end.products} products, {seconds:.1f} s of processor time"
+    )
+    return int(not end.status.converged)
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
@@ -121,7 +145,12 @@ def main() -> int:
     parser.add_argument("--surfaces", type=int, default=10)
     parser.add_argument("--approaches", type=int, default=60)
     parser.add_argument("--count", type=int, default=1000)
+    parser.add_argument(
+        "--strong", type=int, metavar="CELLS", help="a surface of this many cells a side, in one step"
+    )
     options = parser.parse_args()
+    if options.strong:
+        return one_step(options.strong)
     found = [steps(number) for number in range(options.surfaces)] + [approaches(options.approaches)]
     certified = missed = unstable = jumps = doubtful = 0
     worst = 0.0

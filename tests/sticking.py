@@ -1,9 +1,14 @@
 """Rough surfaces that stick strongly, and a slow solver that shares nothing with the library's."""
 
+from collections import Counter
+from contextlib import contextmanager
+from unittest import mock
+
 import numpy as np
 import scipy.linalg
 
 import roughcontact as rc
+from roughcontact.adhesion import quasi_static
 
 
 def rough(cells, *, periodic, slope, seed):
@@ -21,6 +26,58 @@ def rough(cells, *, periodic, slope, seed):
 def sticky(length, *, reach=0.3):
     """Return an adhesion whose Irwin length on a body of modulus 1 is so many cells."""
     return rc.Adhesion(work=reach**2 / (np.pi * length), range=reach)
+
+
+def strong(cells):
+    """Return a periodic surface of rms slope 0.1 with waves of a half to an eighth of its side, and its adhesion."""
+    grid = rc.Grid((cells, cells), 1.0, True)
+    rms = {"long_cutoff": cells / 2, "short_cutoff": cells / 8}
+    heights = rc.self_affine(grid, 0.8, 1.0, 0, **rms).heights
+    waves = 2 * np.pi * np.fft.fftfreq(cells)
+    power = np.abs(np.fft.fft2(heights) / heights.size) ** 2
+    slope = np.sqrt((power * (waves[:, None] ** 2 + waves**2)).sum())
+    return rc.Surface(0.1 / slope * heights, grid), rc.Adhesion(work=0.2, range=1.0)
+
+
+@contextmanager
+def counted():
+    """Count the steps of paths, the Newton solves, tests of convexity and flows in them, and the products of each."""
+    counts = Counter()
+
+    def counting(name, counter, outcome):
+        function = getattr(quasi_static, name)
+
+        def call(*given, **named):
+            before = given[counter].products
+            answer = function(*given, **named)
+            key = outcome(answer, named)
+            counts[key] += 1
+            counts[f"{key}: products"] += given[counter].products - before
+            return answer
+
+        return mock.patch.object(quasi_static, name, call)
+
+    accept, reject = quasi_static._StepControl.accept, quasi_static._StepControl.reject
+
+    def step(name, function):
+        def call(self, *given, **named):
+            counts[name] += 1
+            return function(self, *given, **named)
+
+        return mock.patch.object(quasi_static._StepControl, function.__name__, call)
+
+    with (
+        counting(
+            "minimise", 2, lambda end, _: "Newton solves" if end.converged else "Newton solves given up"
+        ),
+        counting(
+            "smallest_ratio", 3, lambda ritz, _: "boxes convex" if ritz.positive else "boxes not convex"
+        ),
+        counting("flow", 3, lambda _, named: "uniform flows" if named.get("uniform") else "flows"),
+        step("steps accepted", accept),
+        step("steps rejected", reject),
+    ):
+        yield counts
 
 
 def slow_path(operator, separation, adhesion, depths):

@@ -76,6 +76,13 @@ class ElasticForm:
             return float(np.vdot(first, second)) * self.weights
         return float(np.vdot(first * self.weights, second))
 
+    def dots(self, first: Array, second: Array) -> Array:
+        """Return the integrals of the products of each field of `first` with each of `second`."""
+        count, scalar = len(first), isinstance(self.weights, float)
+        weighted = (first if scalar else first * self.weights).reshape(count, -1)
+        matrix = weighted @ second.reshape(len(second), -1).T
+        return np.asarray(matrix * self.weights if scalar else matrix)
+
 
 def elastic_form(operator: Operator) -> ElasticForm:
     """Return the elastic form of a half-space: periodic, free, on rings or on a line.

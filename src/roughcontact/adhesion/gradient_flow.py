@@ -45,6 +45,8 @@ SOFTEST = 1e-5  # smallest damping
 MOST = 100.0  # damping at which a step that does not lower the energy is due to rounding
 UNDER = 0.05  # damping if the undamped Hessian is indefinite
 CLOSE = 1e-2  # residual below which an equilibrium is searched
+RISEN = 10.0  # times the residual: the next one at most while the flow leaves the end of a branch
+FALLEN = 0.1  # of the largest residual so far: below it a flow that has risen has left
 COARSE = 1e-5  # residual of a coarse equilibrium near the end
 TRIALS = 15  # Newton steps toward an equilibrium
 WAIT = 3  # steps between two such trials
@@ -89,14 +91,21 @@ def flow(
     counter.products += 1
     # E17
     point = energy.at(energy.feasible(start))
-    damping, lost, wait = FIRST, 0.0, 0
+    lost, wait = 0.0, 0
+    # A jump begins close to the end of a branch, where the flow is slow, and linear along one direction: the damping
+    # only has to keep the Hessian definite.
+    first = largest = energy.residual(point)
+    leaving = first <= CLOSE * energy.scale(point)
+    damping = LEAST if leaving else FIRST
     for _ in range(STEPS):
         residual, scale = energy.residual(point), energy.scale(point)
         # E18: at rest; the Hessian may still be indefinite where the reaction of the wall on a cell is almost zero.
         if residual <= TOLERANCE * scale:
             return FlowResult(Equilibrium(point, residual / scale, True, lost), lost)
         close = residual <= CLOSE * scale
-        if close and damping < LEAST:  # E19
+        largest = max(largest, residual)
+        leaving = leaving and close and (largest <= RISEN * first or residual > FALLEN * largest)
+        if close and damping < LEAST and not leaving:  # E19
             if wait == 0:
                 end = _end(energy, point, convex, counter)
                 if end is not None:
@@ -110,9 +119,9 @@ def flow(
             energy.form, free, curvature - damping * weights, -point.reaction, FORCING, counter
         )
         found = None if negative else line_search(energy, point, step, counter)
-        if found is None:  # E21
+        if found is None or (leaving and energy.residual(found[0]) > RISEN * residual):  # E21
             if damping <= MOST:
-                damping = max(4 * damping, UNDER)
+                damping = max(4 * damping, SOFTEST if leaving else UNDER)
             elif not uniform:
                 uniform, damping = True, UNDER
             else:
@@ -120,7 +129,7 @@ def flow(
             continue
         new, change = found
         lost -= change
-        too_far = _pushed_back(point, new) > residual
+        too_far = not leaving and _pushed_back(point, new) > residual
         point = new
         if detached(energy, point):  # E22
             return FlowResult(Equilibrium(point, 0.0, True, lost), lost)

@@ -27,8 +27,17 @@ from roughcontact.validation import Array
 __all__ = ["Jump", "PathPoint", "QuasiStatic"]
 
 MOVED = 1e-2  # of the range of the attraction: a smaller change is not a jump
-ON_THE_WAY = 1e-8  # residual of states between the prescribed values
+ON_THE_WAY = (
+    1e-8  # residual of states of a retreat between the prescribed values, whose force may be the lowest
+)
+APPROACHING = 1e-4  # residual of such states of an approach: they only start the next step
 COARSE = 1e-4  # residual of a first, coarse solution of a step
+SURE = 1e-5  # accuracy of an eigenvalue whose sign is needed
+LONGER = 4.0  # times the last step: the next one at most
+TO_THE_END = 0.85  # of the estimated distance to the end of a branch
+IN_THE_BOX = (
+    0.5  # of the eigenvalue of a state: the estimated one of the box of the next step is smaller by that
+)
 SAME = 1e-5  # of the range of the attraction: difference of gaps below which two states are the same
 
 
@@ -92,18 +101,19 @@ class PathPoint:
 
 @dataclass(slots=True)
 class _StepControl:
-    """Step length: doubled after each accepted step; bisected toward the value of a rejected step.
+    """Step length: estimated from the eigenvalues of accepted steps; bisected toward the value of a rejected step.
 
-    After a rejection the end of the branch may be at any distance. Each further rejection squares the fraction of the
-    step that is tried. After an acceptance the next step is at least the geometric mean of the accepted step and the
-    distance to the rejected value.
+    The square of the eigenvalue of a state falls to zero at the end of a branch, linearly close to it. The eigenvalue
+    of a box is smaller than that of its state, by the square of the step. After a rejection the end of the branch may
+    be at any distance. Each further rejection squares the fraction of the step that is tried.
     """
 
     smallest: float
     length: float
-    rejected: float = np.inf  # distance to the value of the last rejected step
+    rejected: float = np.inf  # distance to the last value without a state
     rejections: int = 0  # in a row
     accepted: int = 0  # steps in a row since a rejection
+    eigenvalue: float = 0.0  # of the last state; 0 if it is not known
 
     def proposal(self) -> float:
         if self.length < self.rejected:
@@ -112,15 +122,19 @@ class _StepControl:
             return self.rejected
         return max(self.rejected / 2, self.smallest)
 
-    def accept(self, length: float) -> None:
+    def accept(self, length: float, state: float, box: float) -> None:
+        """Take a step with the eigenvalues of its state and of its box."""
         self.accepted = 0 if length >= self.rejected else self.accepted + 1
         self.rejected = self.rejected - length if length < self.rejected else np.inf
-        self.length = max(2 * length, math.sqrt(length * self.rejected) if self.rejected < np.inf else 0.0)
-        self.rejections = 0
+        fall = max(0.0, self.eigenvalue**2 - state**2) / (TO_THE_END * state**2)
+        narrowing = math.sqrt(max(0.0, state - box) / (IN_THE_BOX * state))
+        self.length = length / max(fall, narrowing, 1 / LONGER)
+        self.rejections, self.eigenvalue = 0, state
 
-    def reject(self, length: float) -> None:
+    def reject(self, length: float, *, found: bool) -> None:
+        """Shorten a step, on whose way the energy was not convex, or whose state was not even found."""
         self.rejections += 1
-        self.rejected, self.accepted = length, 0
+        self.rejected, self.accepted = np.inf if found else length, 0
         self.length = length * 0.5 ** (2 ** (self.rejections - 1))
 
 
@@ -141,6 +155,10 @@ class QuasiStatic:
     counter: Counter = field(default_factory=Counter)
     task: RunningTask | None = None  # reports the part of the way to the next value [%]
     _vectors: tuple[Array, ...] = ()
+    _eigenvalues: tuple[float, float] = (
+        1.0,
+        1.0,
+    )  # at the end of the last step that was tested, and on its box
 
     def start(self, value: float, displacement: Array) -> PathPoint:
         """Return the end of the gradient flow from a displacement."""
@@ -165,23 +183,23 @@ class QuasiStatic:
             value = target if length == abs(left) else here.value + float(np.copysign(length, left))
             energy = self.control.energy_at(value)
             moved = energy.at_depth(here.point)  # E25
-            # Between prescribed values the residual may be larger, in proportion to the step: a step as short as the
-            # bracket has the residual of a state at a prescribed value.
-            tolerance = TOLERANCE if value == target else min(ON_THE_WAY, TOLERANCE * length / self.bracket)
+            # Between prescribed values the residual may be larger, in proportion to the step.
+            loosest = ON_THE_WAY if retreats else APPROACHING
+            tolerance = TOLERANCE if value == target else min(loosest, 10 * TOLERANCE * length / self.bracket)
             # After a rejection more follow, and a coarse solution detects most of them.
             coarse = (COARSE,) if steps.rejected < math.inf and tolerance < COARSE else ()
             predicted = moved.displacement + length * slope
-            end = self._end(energy, here.point, moved, predicted, (*coarse, tolerance))  # E26, E27
-            if end is not None:
+            end, convex = self._end(energy, here.point, moved, predicted, (*coarse, tolerance))  # E26, E27
+            if convex:
                 slope = (end.point.displacement - moved.displacement) / length
                 here = PathPoint(value, end.point, end.residual, True)
                 if self.task is not None:
                     self.task.reached(100 * abs(value - start.value) / abs(target - start.value))
                 if retreats:
                     lowest.extend(value, here.point)
-                steps.accept(length)  # E28
+                steps.accept(length, *self._eigenvalues)  # E28
             elif length > self.bracket:
-                steps.reject(length)
+                steps.reject(length, found=end.converged)
             else:
                 here, jump = self._jump(here, value, energy, moved)  # E29
                 slope = 0.0
@@ -196,15 +214,14 @@ class QuasiStatic:
 
     def _end(
         self, energy: GapEnergy, before: Point, moved: Point, guess: Array, tolerances: tuple[float, ...]
-    ) -> Equilibrium | None:
-        """Return the state at the end of a step if the energy is strictly convex between both ends of the step."""
-        end: Equilibrium | None = None
+    ) -> tuple[Equilibrium, bool]:
+        """Return the end of a step, and whether the energy is strictly convex between both ends of the step."""
         for tolerance in tolerances:
             end = minimise(energy, guess, self.counter, tolerance=tolerance, convex_only=True)
             if not (end.converged and self._convex(energy, moved, end.point, before)):
-                return None
+                return end, False
             guess = end.point.displacement
-        return end
+        return end, True
 
     def _jump(
         self, here: PathPoint, value: float, energy: GapEnergy, moved: Point
@@ -245,6 +262,11 @@ class QuasiStatic:
         curvature = energy.attraction.curvature_between(nearest, farthest)
         # The direction of least curvature is often the change of the state itself.
         start = (other.displacement - one.displacement, *self._vectors)
-        ritz = smallest_ratio(energy.form, free, curvature, self.counter, start=start, sign_only=True)
-        self._vectors = ritz.vectors[:1]
+        ritz = smallest_ratio(
+            energy.form, free, curvature, self.counter, start=start, accuracy=SURE, sign_only=True
+        )
+        self._vectors = ritz.vectors
+        softer = curvature - np.where(other.free, energy.attraction.curvature(other.gap), 0.0)
+        more = sum(energy.form.dot(softer * x, x) for x in self._vectors)
+        self._eigenvalues = ritz.value + more, ritz.value
         return ritz.positive

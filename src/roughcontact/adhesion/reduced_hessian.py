@@ -23,7 +23,7 @@ from roughcontact.validation import Array, Mask
 __all__ = ["Ritz", "smallest_ratio", "solved_bound"]
 
 STEPS = 120
-BLOCK = 2
+BLOCK = 2  # Ritz vectors that are improved
 RELIABLE = 0.02  # bound below which a sign is accepted
 DEPENDENT = 1e-12  # of the largest: smaller directions of the basis are left out
 
@@ -37,7 +37,7 @@ class Ritz:
     value, bound : float
         An eigenvalue lies within `bound` of `value`; no eigenvalue is above one. The smallest is at most `value`.
     vectors : tuple of arrays
-        Start vectors of the next search.
+        The Ritz vector: the start of the next search. Empty without attraction.
     residual : array
         Residual of the first vector, whose elastic norm is one.
     """
@@ -87,11 +87,14 @@ def smallest_ratio(
     if not np.any(free & (curvature > 0)):
         return Ritz(1.0, 0.0, (), np.zeros(free.shape))
     rng = np.random.default_rng(seed)
-    number = float(np.count_nonzero(free))
+    mask, number = free.astype(np.float64), float(np.count_nonzero(free))
+    weight = mask * curvature
 
     def project(x: Array) -> Array:
-        x = np.where(free, x, 0.0)
-        return np.where(free, x - x.sum() / number, 0.0) if form.mean_free else x
+        x *= mask
+        if form.mean_free:
+            x -= mask * (x.sum() / number)
+        return x
 
     def precondition(r: Array) -> Array:
         counter.products += 1
@@ -99,37 +102,41 @@ def smallest_ratio(
 
     def image(x: Array) -> Array:
         counter.products += 1
-        return np.where(free, form.stiffness(x), 0.0)
+        return form.stiffness(x) * mask
 
-    weight = np.where(free, curvature, 0.0)
-    first = [project(v) for v in start]  # E31
     block = max(BLOCK, len(start) + 1)
-    while len(first) < block:
-        first.append(precondition(weight * rng.standard_normal(free.shape)))
-    basis, images = first, [image(x) for x in first]
-    old: list[tuple[Array, Array]] = []
-    value, bound, vectors = 1.0, np.inf, tuple(first)
+    # Large arrays are allocated once: a third takes what is computed from the other two.
+    basis, images, spare = (np.empty((3 * block, *free.shape)) for _ in range(3))
+    for k in range(block):  # E31
+        given = k < len(start)
+        basis[k] = (
+            project(np.array(start[k])) if given else precondition(weight * rng.standard_normal(free.shape))
+        )
+        images[k] = image(basis[k])
+    size = block
     for _ in range(STEPS):
-        coefficients, values = _ritz(form, basis, images, weight)  # E32
-        count = min(block, len(values))
-        chosen = [coefficients[:, k] for k in range(count)]
-        x = [_combined(c, basis) for c in chosen]
-        kx = [_combined(c, images) for c in chosen]
+        np.multiply(weight, basis[:size], out=spare[:size])
+        coefficients, values = _ritz(form, basis[:size], images[:size], spare[:size])  # E32
+        chosen = coefficients[:, :block].T
+        count = len(chosen)
         # The contribution of the newer parts is the direction of the next step.
-        old = [(_combined(c[block:], basis[block:]), _combined(c[block:], images[block:])) for c in chosen]
-        residuals = [project((1 - v) * k - weight * y) for v, k, y in zip(values, kx, x, strict=False)]
+        newer = np.where(np.arange(size) < block, 0.0, chosen)
+        both = np.concatenate([chosen, newer]) if size > block else chosen
+        basis, spare = _combined(both, basis, spare), basis
+        images, spare = _combined(both, images, spare), images
+        size, block = len(both), count
+        improved = zip(values[:BLOCK], images, basis, strict=False)
+        residuals = [project((1 - v) * k - weight * y) for v, k, y in improved]
         preconditioned = [precondition(r) for r in residuals]
         value = float(values[0])
         bound = float(np.sqrt(max(0.0, form.dot(residuals[0], preconditioned[0]))))  # E33
-        vectors = tuple(x)
         # E34
         if bound <= accuracy or (sign_only and (value < 0 or bound <= min(RELIABLE, value / 4))):
             break
-        basis, images = [*x, *preconditioned], [*kx, *(image(s) for s in preconditioned)]
-        if len(coefficients) > block:
-            basis += [p for p, _ in old]
-            images += [p for _, p in old]
-    return Ritz(value, bound, vectors, residuals[0])
+        for z in preconditioned:
+            basis[size], images[size] = z, image(z)
+            size += 1
+    return Ritz(value, bound, (np.array(basis[0]),), residuals[0])
 
 
 def solved_bound(form: ElasticForm, free: Mask, ritz: Ritz) -> float:
@@ -142,15 +149,9 @@ def solved_bound(form: ElasticForm, free: Mask, ritz: Ritz) -> float:
     return float(np.sqrt(max(0.0, form.dot(ritz.residual, solved))))
 
 
-def _ritz(form: ElasticForm, basis: list[Array], images: list[Array], weight: Array) -> tuple[Array, Array]:
+def _ritz(form: ElasticForm, basis: Array, images: Array, weighted: Array) -> tuple[Array, Array]:
     """Return the coefficients of the Ritz vectors and their values, from the smallest up."""
-    size = len(basis)
-    elastic, adhesive = np.empty((size, size)), np.empty((size, size))
-    for i in range(size):
-        weighted = weight * basis[i]
-        for j in range(size):
-            elastic[i, j] = form.dot(basis[i], images[j])
-            adhesive[i, j] = form.dot(weighted, basis[j])
+    elastic, adhesive = form.dots(basis, images), form.dots(basis, weighted)
     norms = np.sqrt(np.maximum(np.diagonal(elastic), 0.0))
     scale = np.divide(1.0, norms, out=np.zeros_like(norms), where=norms > 0)
     elastic = scale[:, None] * (elastic + elastic.T) / 2 * scale
@@ -163,10 +164,8 @@ def _ritz(form: ElasticForm, basis: list[Array], images: list[Array], weight: Ar
     return np.asarray(coefficients), np.asarray(1 - ratios[::-1])
 
 
-def _combined(coefficients: Array, fields: list[Array]) -> Array:
-    if not fields:
-        return np.zeros(())
-    answer = coefficients[0] * fields[0]
-    for c, f in zip(coefficients[1:], fields[1:], strict=True):
-        answer = answer + c * f
-    return np.asarray(answer)
+def _combined(coefficients: Array, fields: Array, out: Array) -> Array:
+    """Write one sum of the fields for each row of coefficients to the first fields of `out`, and return `out`."""
+    count, size = coefficients.shape
+    np.matmul(coefficients, fields[:size].reshape(size, -1), out=out[:count].reshape(count, -1))
+    return out

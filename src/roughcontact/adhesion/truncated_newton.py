@@ -148,15 +148,16 @@ def conjugate_gradients(
     mask = free.astype(np.float64)
     number = max(1.0, float(mask.sum()))
     constrained = form.mean_free
+    scratch = np.empty(mask.shape)
 
     def precondition(r: Array) -> Array:
         counter.products += 1
-        z = form.compliance(r) * mask
+        z = form.compliance(r)
+        z *= mask
         if constrained:
-            z -= along * (z.sum() / total)
-            z -= mask * (
-                z.sum() / number
-            )  # rounding must not change the mean, along which the Hessian is not positive
+            z -= np.multiply(along, z.sum() / total, out=scratch)
+            # Rounding must not change the mean, along which the Hessian is not positive.
+            z -= np.multiply(mask, z.sum() / number, out=scratch)
         return z
 
     along, total = load, 1.0
@@ -177,20 +178,22 @@ def conjugate_gradients(
     free_diagonal = diagonal * mask
     for _ in range(INNER):
         counter.products += 1
-        image = form.stiffness(direction) * mask  # E11
-        image -= free_diagonal * direction
+        image = form.stiffness(direction)  # E11
+        image *= mask
+        image -= np.multiply(free_diagonal, direction, out=scratch)
         curvature = form.dot(direction, image)
         if curvature <= 0:  # E12
             return x, True
         alpha = rz / curvature  # E13
-        x += alpha * direction
-        r -= alpha * image
+        x += np.multiply(direction, alpha, out=scratch)
+        r -= np.multiply(image, alpha, out=scratch)
         if constrained:
-            r -= mask * (r.sum() / number)
+            r -= np.multiply(mask, r.sum() / number, out=scratch)
         z = precondition(r)  # E14
         new = form.dot(r, z)
         if new <= goal:  # E15
             break
-        direction = z + (new / rz) * direction  # E16
+        direction *= new / rz  # E16
+        direction += z
         rz = new
     return x, False
