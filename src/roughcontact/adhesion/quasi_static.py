@@ -185,7 +185,7 @@ class QuasiStatic:
             moved = energy.at_depth(here.point)  # E25
             # Between prescribed values the residual may be larger, in proportion to the step.
             loosest = ON_THE_WAY if retreats else APPROACHING
-            tolerance = TOLERANCE if value == target else min(loosest, 10 * TOLERANCE * length / self.bracket)
+            tolerance = TOLERANCE if value == target else min(loosest, TOLERANCE * length / self.bracket)
             # After a rejection more follow, and a coarse solution detects most of them.
             coarse = (COARSE,) if steps.rejected < math.inf and tolerance < COARSE else ()
             predicted = moved.displacement + length * slope

@@ -22,6 +22,7 @@ from roughcontact.validation import Array, numeric, positive_scalar, shown
 __all__ = ["joint_leak"]
 
 _OPEN = 1e6  # conductance of a cell without contact, over the largest one in contact
+_ROUNDED = 1e-12  # a pressure of a law is the sum over its cells: the load that it was asked for, rounded
 _TOLERANCE = 1e-6
 
 
@@ -104,7 +105,7 @@ def _transmissivities(joint: Joint, pressure: Array, drop: float) -> Array:
         count = int(np.argmin(np.append(kappa, 0.0) > 0))  # loads before the first at which no path is open
         if count:
             between = np.exp(np.interp(np.log(pressure), np.log(p[:count]), np.log(kappa[:count])))
-            found[0] += np.where(pressure <= p[count - 1], between, 0.0)
+            found[0] += np.where(pressure <= p[count - 1] * (1 + _ROUNDED), between, 0.0)
             found[1] += np.where(pressure < np.append(p, math.inf)[count], between, 0.0)
         found[1][pressure < max(p[0], drop)] = math.inf
     return found / len(joint.normal)

@@ -25,7 +25,7 @@ __all__ = ["code_for", "functions", "is_available", "takes"]
 # Modules whose text all code depends on.
 COMMON = (
     *("calls", "code", "constants", "team", "team_kernels", "groups", "loader"),
-    *("signature", "stencil", "totals", "values"),
+    *("signature", "totals", "values"),
 )
 _ENGINES: list[Any] = []  # they own the code that runs
 _TEAM: list[Team] = []  # the one, of the first code that was loaded

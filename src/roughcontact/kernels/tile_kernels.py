@@ -10,7 +10,7 @@ from typing import NamedTuple
 from roughcontact.kernels.code import Code, Local
 from roughcontact.kernels.constants import NEAR_ROWS, REACH, SIDE
 from roughcontact.kernels.signature import Indices, Vector, kernel
-from roughcontact.kernels.stencil import sum_near
+from roughcontact.kernels.totals import sum_near
 from roughcontact.kernels.values import Index, Number, where
 
 WIDE = SIDE * SIDE  # of the influence of near sums, and so of an offset of one row

@@ -1,14 +1,18 @@
-"""Sums, and largest ones, of what a loop finds, part by part."""
+"""Sums that kernels share: over the cells near one, and over all that a loop finds, part by part."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from functools import reduce
+from operator import add
 
 from roughcontact.kernels.code import Code, Local
-from roughcontact.kernels.signature import Doubles
+from roughcontact.kernels.constants import REACH
+from roughcontact.kernels.signature import Doubles, Vector
 from roughcontact.kernels.values import Index, Number, maximum, where
 
-__all__ = ["Totals"]
+__all__ = ["Totals", "sum_near"]
 
 
 class Totals:
@@ -93,3 +97,17 @@ def _add_compensated(total: Local[Number], lost: Local[Number], number: Number) 
     rest = (after - before) - added
     lost.set(where(abs(rest) < math.inf, rest, 0.0))  # of infinity nothing is lost
     total.set(after)
+
+
+def sum_near(cell: Callable[[int, int], Number], weights: Vector, first: Index) -> Number:
+    """Return the sum over the cells up to REACH away: of what `cell` gives so far down and across, by its weight.
+
+    Weights are the same on all sides. They are numbered row by row from the first, of cells down and across from none
+    to REACH.
+    """
+    terms = []
+    for dy in range(REACH + 1):
+        for dx in range(REACH + 1):
+            around = [cell(y, x) for y in sorted({dy, -dy}) for x in sorted({dx, -dx})]
+            terms.append(reduce(add, around) * weights[first + (dy * (REACH + 1) + dx)])
+    return reduce(add, terms)

@@ -13,8 +13,7 @@ from roughcontact.kernels.code import Code
 from roughcontact.kernels.constants import ROUNDINGS
 from roughcontact.kernels.groups import Cells, Groups
 from roughcontact.kernels.signature import Doubles, Indices, Scalar, Vector, kernel
-from roughcontact.kernels.stencil import sum_near
-from roughcontact.kernels.totals import Totals
+from roughcontact.kernels.totals import Totals, sum_near
 from roughcontact.kernels.values import Index, Number, maximum, where
 
 

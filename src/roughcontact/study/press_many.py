@@ -52,8 +52,18 @@ def press_many(
     ----------
     surfaces : iterable of Surface or RadialProfile
         One after the other is taken when a worker becomes free; a generator will do.
-    modulus, force, depth, pressure, operator, solver, tolerance, hardness
-        As for `press`, the same for all surfaces.
+    modulus : float, Solid, Material, str, or a pair of bodies
+        Reduced modulus E* [Pa], or the bodies that it follows from. This and what follows is the same for all surfaces.
+    force, depth, pressure : float
+        Exactly one: normal force [N], indentation depth [m], or nominal pressure [Pa].
+    operator : Operator, optional
+        A body other than the half-space on the surfaces' grid.
+    solver : Solver, optional
+        Settings of the method.
+    tolerance : float
+        Largest residual.
+    hardness : float, array, function, Material or str, optional
+        Pressure that no cell exceeds [Pa].
     executor : Executor, optional
         `study.Processes` (default: one process for each core), `study.Dask`, or `study.Serial` for this process, which
         is the default for a list of surfaces with up to 524 288 cells in all. Processes take about half a second to
