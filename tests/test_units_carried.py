@@ -156,7 +156,8 @@ MORE = [
     (rc.press, {"surface": CUT, "modulus": 1e9, "depth": 1e-8}),
     (rc.press, {"surface": CUT, "modulus": 1e9, "pressure": 1e6}),
     (rc.press, {"surface": SCAN, "modulus": 1e9, "force": 1.0, "operator": LINE_OPERATOR}),
-    (rc.press_many, {"surfaces": [CUT], "modulus": 1e9, "pressure": 1e6}),
+    *((rc.press_many, {"surfaces": [CUT], "modulus": 1e9, "hardness": 1e9, name: value})
+      for name, value in (("force", 1e-3), ("depth", 1e-8), ("pressure", 1e6))),
     (rc.loading_path, {"surface": CUT, "modulus": 1e9, "forces": np.array([1e-3, 2e-3])}),
     (rc.loading_path, {"surface": CUT, "modulus": 1e9, "depths": [1e-8, 2e-8], "hardness": 1e9}),
     (rc.loading_path, {"surface": CUT, "modulus": 1e9, "pressures": [1e6, 2e6]}),
