@@ -27,17 +27,14 @@ from roughcontact.validation import Array
 __all__ = ["Jump", "PathPoint", "QuasiStatic"]
 
 MOVED = 1e-2  # of the range of the attraction: a smaller change is not a jump
-ON_THE_WAY = (
-    1e-8  # residual of states of a retreat between the prescribed values, whose force may be the lowest
-)
-APPROACHING = 1e-4  # residual of such states of an approach: they only start the next step
+# Residuals of states between the prescribed values: of a retreat, whose lowest force may be theirs, and of an approach,
+# where they only start the next step.
+ON_THE_WAY, APPROACHING = 1e-8, 1e-4
 COARSE = 1e-4  # residual of a first, coarse solution of a step
 SURE = 1e-5  # accuracy of an eigenvalue whose sign is needed
 LONGER = 4.0  # times the last step: the next one at most
 TO_THE_END = 0.85  # of the estimated distance to the end of a branch
-IN_THE_BOX = (
-    0.5  # of the eigenvalue of a state: the estimated one of the box of the next step is smaller by that
-)
+IN_THE_BOX = 0.5  # of the eigenvalue of a state: by how much that of the box of the next step may be smaller
 SAME = 1e-5  # of the range of the attraction: difference of gaps below which two states are the same
 
 
@@ -155,10 +152,7 @@ class QuasiStatic:
     counter: Counter = field(default_factory=Counter)
     task: RunningTask | None = None  # reports the part of the way to the next value [%]
     _vectors: tuple[Array, ...] = ()
-    _eigenvalues: tuple[float, float] = (
-        1.0,
-        1.0,
-    )  # at the end of the last step that was tested, and on its box
+    _eigenvalues: tuple[float, float] = (1.0, 1.0)  # of the last state that was tested, and of its box
 
     def start(self, value: float, displacement: Array) -> PathPoint:
         """Return the end of the gradient flow from a displacement."""

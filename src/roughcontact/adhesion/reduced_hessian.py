@@ -88,7 +88,7 @@ def smallest_ratio(
         return Ritz(1.0, 0.0, (), np.zeros(free.shape))
     rng = np.random.default_rng(seed)
     mask, number = free.astype(np.float64), float(np.count_nonzero(free))
-    weight = mask * curvature
+    weight = np.where(free, curvature, 0.0)
 
     def project(x: Array) -> Array:
         x *= mask

@@ -15,8 +15,6 @@ if TYPE_CHECKING:
 
 __all__ = ["Function", "Operand", "address"]
 
-_FIRST = ctypes.c_char.from_buffer
-
 
 class Threads(Protocol):
     """What runs kernels, by several threads or one."""
@@ -96,14 +94,14 @@ class Function:
 
 def _address(given: Any, wanted: np.dtype[Any]) -> int:
     """Return where an array of a type begins."""
-    if given.__class__ is not np.ndarray and not isinstance(given, (Operand, np.ndarray)):
+    if not isinstance(given, (Operand, np.ndarray)):
         raise TypeError(f"an array of {wanted} is needed, not {type(given).__name__}")
-    if given.dtype is not wanted and given.dtype != wanted:
+    if given.dtype != wanted:
         raise TypeError(f"an array of {wanted} is needed, not one of {given.dtype}")
     if isinstance(given, Operand):
         return given.address
     try:
-        return ctypes.addressof(_FIRST(given))  # type: ignore[arg-type]
+        return ctypes.addressof(ctypes.c_char.from_buffer(given))  # type: ignore[arg-type]
     except (TypeError, ValueError):  # read only or empty: a slower way
         if not given.flags.c_contiguous:
             raise TypeError("a kernel takes arrays whose numbers lie one after the other") from None

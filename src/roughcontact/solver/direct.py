@@ -74,8 +74,8 @@ def press_cells(operator: Operator, separation: Array, control: Control, cells: 
 def _press_compiled(
     matrix: Array, heights: Array, control: Control, area: float, cells: Cells
 ) -> DirectSolution:
-    """Do the same in one call of machine code, which takes a new elimination for every round."""
-    n, stride = len(cells), len(cells) + 2 + LANES - (len(cells) + 2) % LANES
+    """Do what `press_cells` does in one call of machine code, with a new elimination for every round."""
+    n, stride = len(cells), -(-(len(cells) + 2) // LANES) * LANES
     kept, memory = np.arange(n + 1), np.empty((n + 6, stride))
     matrix = np.ascontiguousarray(matrix, np.float64)
     given = area if isinstance(control, Force) else 0.0, control.value

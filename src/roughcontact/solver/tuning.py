@@ -35,7 +35,7 @@ DIRECT_ROUGHLY = 300  # cells, where the answer is but the start of another, aga
 ROUGH_TOLERANCE = 1e-5  # tolerance of such an answer
 # Of the unknowns: to deactivate one costs two triangular solves, a new factorisation a sixth of the cells as many.
 DOWNDATED = 1 / 8
-COMPILED_CELLS = 300  # up to which calls of LAPACK cost more than the slower elimination of the kernel
+COMPILED_CELLS = 300  # cells up to which calls of LAPACK cost more than the slower elimination of the kernel
 SINGLE_CELLS = 4_000  # cells from which on single precision halves the work: fewer bytes
 
 # --- subdomain, prescribed: on which cells, timed ---

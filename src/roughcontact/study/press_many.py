@@ -66,8 +66,8 @@ def press_many(
         Pressure that no cell exceeds [Pa].
     executor : Executor, optional
         `study.Processes` (default: one process for each core), `study.Dask`, or `study.Serial` for this process, which
-        is the default for a list of surfaces with up to 524 288 cells in all. Processes take about half a second to
-        start.
+        is the default for a list of surfaces with up to 524 288 cells in all. Processes take a moment to
+        start: docs/how-to/threads.md.
 
     Yields
     ------
