@@ -54,6 +54,8 @@ def open_name(package: dict[str, Any], names: dict[str, str] | None, name: str) 
     """
     home = package["__name__"]
     if names is None or name not in names:
+        if name.startswith("__"):  # tools ask every module for these, thousands of times
+            raise AttributeError(f"module {home!r} has no attribute {name!r}", name=name)
         known = package["__all__"]
         hint = did_you_mean(home, name, known) or f"; it has {', '.join(known)}"
         raise AttributeError(f"module {home!r} has no attribute {name!r}{hint}", name=name)

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
+from roughcontact.measurement import inference_dataset
 
 P = np.array([7e6, 15e6, 30e6, 65e6, 140e6])
 GIVEN = {"modulus": 115e9, "modulus_error": 0.02, "area": 2e-4, "branch": "loading"}
@@ -16,13 +17,13 @@ CLOSURE = rc.infer_joint(rc.JointClosures(P, P**0.12 / 0.12 / 1.9e7, 1e-8), **GI
 @pytest.fixture(autouse=True, scope="module")
 def _closures_predicted_once():
     """Those of 4000 joints take seconds, and the same joints are drawn each time."""
-    predict = rc.JointInference.predicted_closures
-    known = cache(lambda found, level, *pressures: predict(found, np.array(pressures), level))
+    quantiles = inference_dataset.closure_quantiles
+    known = cache(lambda found, shares, *pressures: quantiles(found, np.array(pressures), list(shares)))
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(
-            rc.JointInference,
-            "predicted_closures",
-            lambda found, pressures, level=0.9: known(found, level, *pressures),
+            inference_dataset,
+            "closure_quantiles",
+            lambda found, pressures, shares: known(found, tuple(shares), *pressures),
         )
         yield
 

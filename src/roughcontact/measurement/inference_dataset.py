@@ -9,7 +9,13 @@ import numpy as np
 
 from roughcontact.labels.labelled import described, plain_values, variable
 from roughcontact.measurement.joint_data import JointClosures
-from roughcontact.measurement.joint_inference import SHARES, JointInference
+from roughcontact.measurement.joint_inference import (
+    SHARES,
+    JointInference,
+    closure_quantiles,
+    ends,
+    stiffness_quantiles,
+)
 from roughcontact.measurement.joint_plan import JointPlan
 from roughcontact.validation import Array
 
@@ -36,8 +42,10 @@ class MeasuredPoints(NamedTuple):
 
     def bands(self, inference: JointInference, pressures: Array) -> list[tuple[Array, Array, Array]]:
         """Return the predicted values, low, median and high, for each of the `LEVELS`."""
-        predicted = inference.predicted_closures if self.name == "closure" else inference.predicted
-        return [predicted(pressures, level) for level in LEVELS]
+        quantiles = closure_quantiles if self.name == "closure" else stiffness_quantiles
+        shares = [share for level in LEVELS for share in ends(level)]
+        low, median, high = quantiles(inference, pressures, shares).reshape(len(LEVELS), 3, -1).swapaxes(0, 1)
+        return list(zip(low, median, high, strict=True))
 
 
 def measured_points(inference: JointInference) -> MeasuredPoints:

@@ -254,14 +254,13 @@ class JointClosures:
 
     @cached_property
     def _rule(self) -> tuple[Array, Array]:
-        """Nodes ln p, and the weights of ``int dp/K`` up to each load, shape (d - 1, n)."""
+        """Nodes ln p between the loads, and their weights in ``int dp/K``."""
         ends = np.log(self.pressures)
         nodes, weights = np.polynomial.legendre.leggauss(NODES)
         middle, half = (ends[1:] + ends[:-1]) / 2, np.diff(ends) / 2
         at = middle[:, None] + half[:, None] * nodes
         steps = np.exp(at) * half[:, None] * weights  # dp = p dln p
-        upto = np.tril(np.ones((middle.size, middle.size)))
-        return at.ravel(), (upto[:, :, None] * steps).reshape(middle.size, -1)
+        return at.ravel(), steps.ravel()
 
     @property
     def log_pressures(self) -> Array:
@@ -292,11 +291,15 @@ class JointClosures:
         >>> f"{mean[0, 0]:.1e} m"  # 5 MPa over 1e13 Pa/m
         '5.0e-07 m'
         """
-        weights = self._rule[1]
-        compliance = np.exp(-mean)
+        steps = self._rule[1] * np.exp(-mean)
         bent = 1 + np.diagonal(covariance, axis1=1, axis2=2) / 2
-        slopes = weights * compliance[:, None, :]
-        return (compliance * bent) @ weights.T, slopes @ covariance @ slopes.swapaxes(1, 2)
+        scatter = _up_to_each_load(steps[:, :, None] * covariance * steps[:, None, :])
+        return _up_to_each_load(steps * bent), _up_to_each_load(scatter.swapaxes(1, 2))
+
+
+def _up_to_each_load(steps: Array) -> Array:
+    """Return sums along the last axis, from the first load to each."""
+    return np.cumsum(steps.reshape(*steps.shape[:-1], -1, NODES).sum(axis=-1), axis=-1)
 
 
 def _take(body: Any, **units: str | None) -> None:

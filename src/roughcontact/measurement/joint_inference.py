@@ -14,7 +14,7 @@ from roughcontact.measurement.joint_explanations import JointExplanation
 from roughcontact.measurement.joint_model import UNLIKELY, JointModel
 from roughcontact.validation import Array, numeric, require
 
-__all__ = ["InferredParameter", "JointInference"]
+__all__ = ["InferredParameter", "JointInference", "closure_quantiles", "ends", "stiffness_quantiles"]
 
 SHARES = (0.05, 0.5, 0.95)
 PART = 100  # joints at once: their covariances at all nodes take megabytes, not gigabytes
@@ -177,18 +177,8 @@ class JointInference:
         >>> bool(low[0] < median[0] < high[0])
         True
         """
-        p = np.log(np.atleast_1d(pressures).astype(np.float64))
-        rng, points = self._drawn()
-        found = np.full((3, p.size), np.nan)
-        for j, each in enumerate(p):
-            one = np.array([each])
-            kept = points[self.model.inside(points, one)]
-            if len(kept) < len(points) / 2:
-                continue
-            mean, covariance = self.model.stiffness(kept, one)
-            drawn = mean[:, 0] + np.sqrt(covariance[:, 0, 0]) * rng.standard_normal(len(kept))
-            found[:, j] = np.exp(np.quantile(drawn, _ends(level)))
-        return found[0], found[1], found[2]
+        low, median, high = stiffness_quantiles(self, np.atleast_1d(pressures), ends(level))
+        return low, median, high
 
     @numeric(pressures="Pa")
     def predicted_closures(self, pressures: Array, level: float = 0.9) -> tuple[Array, Array, Array]:
@@ -217,17 +207,7 @@ class JointInference:
         >>> float(median[0]), bool((low < high)[1:].all())
         (0.0, True)
         """
-        data = JointClosures(pressures, np.zeros(np.shape(pressures)), resolution=np.array(1.0))
-        rng, points = self._drawn()
-        kept = points[self.model.inside(points, data.log_pressures)]
-        means, scatters = [], []
-        for part in np.array_split(kept, -(-len(kept) // PART)):
-            mean, covariance = data.observed(*self.model.stiffness(part, data.log_pressures))
-            means.append(mean)
-            scatters.append(np.sqrt(np.diagonal(covariance, axis1=1, axis2=2)))
-        mean = np.concatenate(means)
-        drawn = mean + np.concatenate(scatters) * rng.standard_normal(mean.shape)
-        low, median, high = np.pad(np.quantile(drawn, _ends(level), axis=0), ((0, 0), (1, 0)))
+        low, median, high = closure_quantiles(self, pressures, ends(level))
         return low, median, high
 
     @numeric(height="m")
@@ -261,11 +241,6 @@ class JointInference:
         values, weights = self._log_heights, self.posterior.weights
         return float(np.sqrt(weights @ (values - weights @ values) ** 2))
 
-    def _drawn(self) -> tuple[np.random.Generator, Array]:
-        """Return a generator, and parameters of joints of the posterior, shape (4000, 5)."""
-        rng, weights = np.random.default_rng(0), self.posterior.weights
-        return rng, self.posterior.points[rng.choice(len(weights), 4000, p=weights)]
-
     @property
     def _log_heights(self) -> Array:
         """Logarithm of the effective height [m] of each draw."""
@@ -283,6 +258,46 @@ class JointInference:
         return f"JointInference(h_eff = {self.effective_height:.3g} m, {low:.3g} to {high:.3g} with 90 %)"
 
 
-def _ends(level: float) -> list[float]:
+def stiffness_quantiles(inference: JointInference, pressures: Array, shares: list[float]) -> Array:
+    """Return quantiles of the stiffness of joints of the posterior, shape (shares, pressures).
+
+    They are NaN outside the emulator.
+    """
+    rng, points = _drawn(inference.posterior)
+    found = np.full((len(shares), len(pressures)), np.nan)
+    for j, each in enumerate(np.log(np.asarray(pressures, np.float64))):
+        one = np.array([each])
+        kept = points[inference.model.inside(points, one)]
+        if len(kept) < len(points) / 2:
+            continue
+        mean, covariance = inference.model.stiffness(kept, one)
+        drawn = mean[:, 0] + np.sqrt(covariance[:, 0, 0]) * rng.standard_normal(len(kept))
+        found[:, j] = np.exp(np.quantile(drawn, shares))
+    return found
+
+
+def closure_quantiles(inference: JointInference, pressures: Array, shares: list[float]) -> Array:
+    """Return quantiles of the closure of joints of the posterior, shape (shares, pressures); zero at the first."""
+    model, zero = inference.model, np.zeros(np.shape(pressures))
+    data = JointClosures(pressures, zero, resolution=np.array(1.0))
+    rng, points = _drawn(inference.posterior)
+    kept = points[model.inside(points, data.log_pressures)]
+    means, scatters = [], []
+    for part in np.array_split(kept, -(-len(kept) // PART)):
+        mean, covariance = data.observed(*model.stiffness(part, data.log_pressures))
+        means.append(mean)
+        scatters.append(np.sqrt(np.diagonal(covariance, axis1=1, axis2=2)))
+    mean = np.concatenate(means)
+    drawn = mean + np.concatenate(scatters) * rng.standard_normal(mean.shape)
+    return np.pad(np.quantile(drawn, shares, axis=0), ((0, 0), (1, 0)))
+
+
+def _drawn(posterior: Posterior) -> tuple[np.random.Generator, Array]:
+    """Return a generator, and parameters of joints of the posterior, shape (4000, 5)."""
+    rng = np.random.default_rng(0)
+    return rng, posterior.points[rng.choice(len(posterior.weights), 4000, p=posterior.weights)]
+
+
+def ends(level: float) -> list[float]:
     """Return the quantiles between which a band of this probability lies, with the median between them."""
     return [(1 - level) / 2, 0.5, (1 + level) / 2]

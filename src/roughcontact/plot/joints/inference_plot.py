@@ -19,7 +19,7 @@ __all__ = ["joint_inference"]
 
 _COLOUR, _DATA = "#0072b2", "#d55e00"
 _SHADES = (0.45, 0.2)  # of the bands
-_SMOOTH = 60  # points of a band
+_SMOOTH = 30  # points of a band
 
 
 def joint_inference(
