@@ -419,7 +419,7 @@ def test_a_loop_of_surfaces_that_stick_is_that_of_the_library(ask):
 @pytest.mark.slow
 def test_a_jump_is_a_line_of_two_places(ask):
     """Under a prescribed depth the force jumps; a chart has one value a place."""
-    job = {"job": "adhesion loop", "turn": {"depth": "20nm", "points": "4"}}
+    job = {"job": "adhesion loop", "turn": {"depth": "1nm", "points": "2"}}
     adhesion = {"work": "50mJ/m^2", "range": "5nm", "allow_unresolved": True}
     said = ask(curve, preparation=SMALL, bodies={"modulus": "1GPa"}, adhesion=adhesion, **job)
     lines = [line for line in of(said, "curve")[0]["lines"] if line["label"] == "jump"]
