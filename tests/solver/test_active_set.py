@@ -1,6 +1,7 @@
 """What becomes of a first prediction of the free set: three ways, one answer (docs/concepts/method.md, A7 to A9)."""
 
 import math
+from dataclasses import dataclass
 
 import numpy as np
 import pytest
@@ -107,3 +108,55 @@ def test_a_matrix_that_is_not_definite_is_left_for_steps(solved, monkeypatch):
     assert state.status.converged
     assert state.tangent is None
     assert math.isclose(state.pressure.sum(), TERMS.control.value, rel_tol=1e-12)
+
+
+@dataclass
+class Counted:
+    """A body that states nothing about itself and counts its products."""
+
+    body: object
+    products: int = 0
+    grid, weights = BODY.grid, BODY.weights
+
+    def apply(self, pressure):
+        self.products += 1
+        return self.body.apply(pressure)
+
+    def as_matrix(self, cells=None):
+        return self.body.as_matrix(cells)
+
+
+PEAK = 0.04  # of the elastic pressure about
+EVEN = np.full(GRID.shape, 0.9 * PEAK)
+
+
+@pytest.mark.parametrize(
+    ("hardness", "solves", "by_depth"),
+    [
+        (math.inf, 1, False),
+        (0.2, 1, False),
+        (0.9 * PEAK, 2, False),
+        (0.25 * PEAK, 1, True),
+        (EVEN, 1, True),
+    ],
+    ids=["no hardness", "beyond all pressures", "little flows", "most of it flows", "a hardness by cell"],
+)
+@pytest.mark.parametrize("most", [5000, 3], ids=["to the end", "three products"])
+def test_every_product_is_counted(hardness, solves, by_depth, most, monkeypatch):
+    """Bounds from above cost one more solve where they are one number and few cells reach it; others the depth."""
+    seen = []
+    for owner, name in ((active_set._Outer, "run"), (active_set, "press_plastic")):
+
+        def noted(*given, name=name, function=getattr(owner, name)):
+            seen.append(name)
+            return function(*given)
+
+        monkeypatch.setattr(owner, name, noted)
+    body = Counted(BODY)
+    spec = Specification(TERMS.control, hardness=hardness)
+    state = rc.ActiveSet(max_steps=most, dense_limit=0).run(body, GAP, spec, np.zeros(GRID.shape))
+    assert state.steps == body.products
+    if most > 3:
+        assert state.status.converged
+        assert (state.pressure <= hardness).all()
+        assert seen == ["run"] * solves + ["press_plastic"] * by_depth

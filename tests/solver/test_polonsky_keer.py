@@ -38,7 +38,9 @@ def test_units_that_are_powers_of_two_change_nothing(control):
     gap = -rc.shapes.paraboloid(grid, radius=6.0).heights
     gap -= gap.min()
     one = run(rc.half_space(grid, MODULUS), gap, Specification(control))
-    spec = Specification(type(control)(control.value * (2.0**-20 if isinstance(control, Depth) else 2.0**-10)))
+    spec = Specification(
+        type(control)(control.value * (2.0**-20 if isinstance(control, Depth) else 2.0**-10))
+    )
     other = run(rc.half_space(fine, MODULUS * 2.0**30), gap * 2.0**-20, spec)
     assert one.status.converged
     assert other.steps == one.steps

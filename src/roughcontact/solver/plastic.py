@@ -28,8 +28,8 @@ def press_plastic(
     if state.status.converged or spec.depth is not None:
         return state
     pressure, steps = _by_depth(operator, separation, spec, solver)
-    state = solver.run(operator, separation, spec, pressure)
-    return replace(state, steps=state.steps + steps)
+    last = solver.run(operator, separation, spec, pressure)
+    return replace(last, steps=state.steps + steps + last.steps)
 
 
 def _by_depth(
