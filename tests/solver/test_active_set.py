@@ -145,13 +145,13 @@ EVEN = np.full(GRID.shape, 0.9 * PEAK)
 def test_every_product_is_counted(hardness, solves, by_depth, most, monkeypatch):
     """Bounds from above cost one more solve where they are one number and few cells reach it; others the depth."""
     seen = []
-    for owner, name in ((active_set._Outer, "run"), (active_set, "press_plastic")):
 
-        def noted(*given, name=name, function=getattr(owner, name)):
-            seen.append(name)
-            return function(*given)
+    def noting(owner, name):
+        function = getattr(owner, name)
+        monkeypatch.setattr(owner, name, lambda *given: (seen.append(name), function(*given))[1])
 
-        monkeypatch.setattr(owner, name, noted)
+    noting(active_set._Outer, "run")
+    noting(active_set, "press_plastic")
     body = Counted(BODY)
     spec = Specification(TERMS.control, hardness=hardness)
     state = rc.ActiveSet(max_steps=most, dense_limit=0).run(body, GAP, spec, np.zeros(GRID.shape))

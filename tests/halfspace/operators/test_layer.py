@@ -193,6 +193,15 @@ def test_cells_against_quadrature(base, spacing, thickness):
         assert table[i, j] == pytest.approx(exact, abs=1e-11 * table[0, 0])
 
 
+def test_a_table_of_many_rows_is_its_single_values_to_the_last():
+    """It is made some rows at a time: of a narrow strip more than there are columns."""
+    influence = layer(rc.Grid((33_000, 2), (0.1, 0.15)), STEEL, 4.0, base=SOFT).influence.influence
+    table = influence.table((33_000, 2))
+    rows, columns = np.array([0, 7_000, 9_000, 32_767, 32_768, 32_999])[:, None], np.arange(2)
+    found = table[rows, columns]
+    np.testing.assert_allclose(influence.at(rows, columns), found, rtol=0, atol=2e-14 * table.max())
+
+
 @pytest.mark.parametrize("thickness", [0.003, 0.5])
 @pytest.mark.parametrize(
     ("solid", "base"), [(STEEL, "rigid-frictionless"), (STEEL, "bonded"), (RUBBER, "bonded")]

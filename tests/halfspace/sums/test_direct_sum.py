@@ -180,6 +180,18 @@ def test_threads_are_no_matter(monkeypatch, count, precision):
             np.testing.assert_array_equal(operator.apply(pressure), alone)
 
 
+@pytest.mark.parametrize("short", [0, 1])
+def test_few_pairs_are_summed_by_one_thread(monkeypatch, short):
+    """A pair is a loaded cell and a tile that it acts on."""
+    places, asked = PLACES["a square"], []
+    pressure = load(places)
+    pairs = np.count_nonzero(pressure) * len(places)
+    monkeypatch.setattr(direct_sum, "PAIRS_FOR_THREADS", pairs + short)
+    monkeypatch.setattr(direct_sum, "threads", lambda: asked.append(2) or 2)
+    over(places, "float64").apply(pressure)
+    assert len(asked) == 1 - short
+
+
 @pytest.mark.parametrize("precision", PRECISIONS)
 def test_over_tiles_of_a_plane(precision):
     """Tiles at the far edges reach beyond the plane, where nothing is."""
