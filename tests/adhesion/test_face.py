@@ -140,6 +140,35 @@ def test_a_state_becomes_a_dataset_and_a_record():
     assert all(values.attrs["long_name"] for values in dataset.values())
 
 
+def test_the_numbers_of_a_state_are_sums_over_its_cells():
+    """Of cells that are not square, some of which pull and some press; the last state has no tension."""
+    grid = rc.Grid((12, 16), (2.0, 0.5), True)
+    surface = rc.Surface(rough(16, periodic=True, slope=0.2, seed=1).heights[:12], grid)
+    state = rc.adhesive_state(surface, 1.0, sticky(6.0), depth=0.3)
+    p, u = state.pressure, state.displacement
+    assert p.min() < 0 < p.max()
+    assert (state.max_pressure, state.max_tension) == (p.max(), -p.min())
+    assert state.force == pytest.approx(p.sum(), rel=1e-12)  # the area of a cell is one
+    assert state.nominal_pressure == pytest.approx(p.mean(), rel=1e-12)
+    assert state.contact_fraction == pytest.approx(state.contact.mean(), rel=1e-12)
+    assert state.elastic_energy == pytest.approx(0.5 * (p * u).sum(), rel=1e-12)
+    assert state.mean_gap == pytest.approx(state.gap.mean(), rel=1e-12)
+    pressed = np.where(p == p.max(), 1e-9, 0.0)  # work of adhesion where nothing pulls
+    free = rc.adhesive_state(surface, 1.0, rc.Adhesion(pressed, 1.0, allow_unresolved=True), depth=0.3)
+    assert free.max_pressure > 0
+    assert free.max_tension == 0
+
+
+def test_the_jump_in_force_is_the_tension_before_the_first_jump_of_the_approach():
+    curve = rc.adhesive_curve(BALL, 1e8, STRONG, depths=[-20e-9, 0.0])
+    jump = curve.jumps[0]
+    before = rc.adhesive_curve(BALL, 1e8, STRONG, depths=[-20e-9, jump.depth - 1e-14])[-1]
+    assert before.force < 0
+    # Next to the end of a branch the force changes with the root of the distance from it.
+    assert curve.jump_in_force == pytest.approx(-before.force, rel=1e-2)
+    assert math.isnan(rc.adhesive_curve(BALL, 1e8, STRONG, depths=[-20e-9, -19e-9]).jump_in_force)
+
+
 def test_cells_apart_by_no_more_than_the_range_are_attracted():
     state = rc.adhesive_state(PLANE, 1.0, sticky(2.0), depth=0.3)
     reach = sticky(2.0).range

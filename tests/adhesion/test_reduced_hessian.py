@@ -46,3 +46,19 @@ def test_without_attraction_it_is_one():
     form = elastic_form(rc.half_space(rc.Grid((4, 4), 1.0), 1.0))
     found = smallest_ratio(form, np.ones(form.shape, bool), np.zeros(form.shape), Counter())
     assert (found.value, found.bound) == (1.0, 0.0)
+
+
+@pytest.mark.parametrize("times", [0.5, 1.5], ids=["stable", "unstable"])
+def test_a_sign_takes_fewer_products_than_a_value(times):
+    """On either side of the curvature at which the smallest eigenvalue is zero."""
+    form = elastic_form(rc.half_space(rc.Grid((8, 12), (1.0, 0.5)), 1.0))
+    free, curvature = np.ones(form.shape, bool), np.zeros(form.shape)
+    curvature[form.inside] = np.random.default_rng(0).random((8, 12)) ** 4
+    # The eigenvalues are one less those of the attraction, which are proportional to the curvature.
+    curvature *= times / (1 - eigenvalues_by_matrices(form, free, curvature)[0])
+    sign, value = Counter(), Counter()
+    found = smallest_ratio(form, free, curvature, sign, sign_only=True)
+    exact = smallest_ratio(form, free, curvature, value, accuracy=1e-6)
+    assert exact.value == pytest.approx(1 - times, abs=1e-6)
+    assert (found.value > 0) == (exact.value > 0)
+    assert sign.products < value.products / 2

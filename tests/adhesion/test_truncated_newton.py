@@ -1,10 +1,14 @@
-"""The line search of Newton's method: which of the shortened steps it takes."""
+"""Newton's method: which of the shortened steps it takes, and its linear systems against matrices."""
 
+from dataclasses import replace
 from types import SimpleNamespace
 
+import numpy as np
 import pytest
 
-from roughcontact.adhesion.truncated_newton import ARMIJO, HALVINGS, Counter, line_search
+import roughcontact as rc
+from roughcontact.adhesion.elastic_form import elastic_form
+from roughcontact.adhesion.truncated_newton import ARMIJO, HALVINGS, Counter, conjugate_gradients, line_search
 
 
 def searched(value, slope):
@@ -45,3 +49,43 @@ def test_uphill_it_goes_nowhere_though_the_energy_falls_beyond():
 
     assert searched(hill, 0.25) == (None, HALVINGS)
     assert hill(2.0) < 0 < hill(1.0) < ARMIJO / 4
+
+
+def system(periodic, scale):
+    """Return a form that counts its products, some free cells, curvatures of so many times the stiffness, and a load."""
+    rng = np.random.default_rng(2)
+    form = elastic_form(rc.half_space(rc.Grid((6, 8), (1.0, 0.5), periodic), 2.0))
+    products = []
+
+    def counted(function):
+        return lambda field: (products.append(1), function(field))[1]
+
+    form = replace(form, stiffness=counted(form.stiffness), compliance=counted(form.compliance))
+    free = rng.random(form.shape) < 0.7
+    return form, free, scale * rng.random(form.shape), 5.0 + rng.standard_normal(form.shape), products
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+def test_a_linear_system_is_solved_on_the_free_cells(periodic):
+    """With a prescribed mean displacement a constant part of the load is balanced, whatever its size."""
+    form, free, diagonal, load, products = system(periodic, 0.1)
+    counter = Counter()
+    x, negative = conjugate_gradients(form, free, diagonal, load, 1e-12, counter)
+    assert not negative
+    assert counter.products == len(products)
+    assert (x[~free] == 0).all()
+    units = np.eye(free.size).reshape(-1, *free.shape)
+    matrix = np.array([form.stiffness(unit).ravel() for unit in units]).T - np.diag(diagonal.ravel())
+    kept = free.ravel()
+    matrix, right = matrix[np.ix_(kept, kept)], load[free]
+    if periodic:  # with the multiplier of the mean
+        one = np.ones((len(right), 1))
+        matrix, right = np.block([[matrix, one], [one.T, np.zeros((1, 1))]]), np.append(right, 0.0)
+    exact = np.linalg.solve(matrix, right)[: kept.sum()]
+    np.testing.assert_allclose(x[free], exact, rtol=0, atol=1e-9 * np.abs(exact).max())
+
+
+@pytest.mark.parametrize("periodic", [False, True])
+def test_negative_curvature_is_told(periodic):
+    form, free, diagonal, load, _ = system(periodic, 100.0)
+    assert conjugate_gradients(form, free, diagonal, load, 1e-12, Counter())[1]

@@ -167,8 +167,6 @@ def conjugate_gradients(
         total = float(along.sum())
     # E10
     r = np.where(free, load, 0.0)
-    if constrained:
-        r -= mask * (r.sum() / number)
     x = np.zeros_like(r)
     z = precondition(r)
     direction, rz = z, form.dot(r, z)

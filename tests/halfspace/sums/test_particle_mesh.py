@@ -1,13 +1,17 @@
 """The operator on tiles against the exact one: what it leaves out, its symmetry, and where it does not go."""
 
+import math
+
 import numpy as np
 import pytest
 from scipy.interpolate import BSpline
 
 import roughcontact as rc
+from roughcontact.halfspace.sums import local_inverse
 from roughcontact.halfspace.sums.mesh import SPLINE_ORDER, _spline
 from roughcontact.halfspace.sums.tiles import SIDE, Tiles
 from roughcontact.kernels import loader
+from roughcontact.kernels.active_cells import ActiveCells, with_margins
 
 GRIDS = {
     "free": rc.Grid((96, 96), (1e-3, 1e-3)),
@@ -99,6 +103,22 @@ def test_the_inverse_is_that_of_the_plane_within_some_percent(grid):
     inside = patch.tiles.gather(region)
     # It only has to make solves short; beyond the edge of a free plane the box repeats itself at another place.
     assert np.linalg.norm((found - wanted)[inside]) < 0.2 * np.linalg.norm(wanted[inside])
+
+
+@pytest.mark.parametrize("large", [math.inf, 1], ids=["near", "near and far"])
+def test_the_inverse_is_the_truncated_one_of_the_plane(grid, large, monkeypatch):
+    """On tiles as on rows, with blocks that carry the long waves and without."""
+    monkeypatch.setattr(local_inverse, "LARGE_PLANE", large)
+    region = spots(grid)
+    operator, patch = on(grid, region)
+    displacement = operator.apply(np.where(region, 1e6, 0.0)) * region
+    inverse = local_inverse.local_inverse(2e9, grid)
+    assert (inverse.far is None) == (large > 1)
+    wanted = inverse.on(ActiveCells(region.astype(float)), with_margins(displacement)) * region
+    found = patch.tiles.scatter(patch.approximate_inverse(patch.tiles.gather(displacement))) * region
+    # Single precision, of sums of 200 terms of either sign and of transforms, which are relative to the largest.
+    terms = np.abs(inverse.near).sum() * 4 * displacement.max()
+    np.testing.assert_allclose(found, wanted, rtol=0, atol=8 * np.finfo(np.float32).eps * terms)
 
 
 @pytest.mark.parametrize(
