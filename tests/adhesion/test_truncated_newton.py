@@ -52,7 +52,7 @@ def test_uphill_it_goes_nowhere_though_the_energy_falls_beyond():
 
 
 def system(periodic, scale):
-    """Return a form that counts its products, some free cells, curvatures of so many times the stiffness, and a load."""
+    """Return a form that counts its products, some free cells, curvatures up to `scale`, a load, and the count."""
     rng = np.random.default_rng(2)
     form = elastic_form(rc.half_space(rc.Grid((6, 8), (1.0, 0.5), periodic), 2.0))
     products = []
