@@ -160,3 +160,18 @@ def test_every_product_is_counted(hardness, solves, by_depth, most, monkeypatch)
         assert state.status.converged
         assert (state.pressure <= hardness).all()
         assert seen == ["run"] * solves + ["press_plastic"] * by_depth
+
+
+@pytest.mark.parametrize("hardness", [math.inf, 0.9 * PEAK], ids=["elastic", "plastic"])
+def test_units_that_are_powers_of_two_change_nothing(hardness):
+    """Of a body without an inverse, whose steps are made of its displacements: their first size is that of a cell."""
+    lengths, moduli = 2.0**-20, 2.0**30
+    fine = Counted(rc.half_space(rc.Grid(GRID.shape, lengths), moduli))
+    fine.grid, fine.weights = fine.body.grid, fine.body.weights
+    solver, nothing = rc.ActiveSet(dense_limit=0), np.zeros(GRID.shape)
+    one = solver.run(Counted(BODY), GAP, Specification(TERMS.control, hardness=hardness), nothing)
+    force = Force(TERMS.control.value * lengths**2 * moduli)
+    other = solver.run(fine, GAP * lengths, Specification(force, hardness=hardness * moduli), nothing)
+    assert one.status.converged
+    assert other.steps == one.steps
+    np.testing.assert_array_equal(other.pressure, one.pressure * moduli)

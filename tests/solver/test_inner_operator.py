@@ -201,3 +201,13 @@ def test_one_driver_takes_off_what_it_says(rough):
         # As far as it was solved, and what the product gets wrong of pressures of both signs (test_patches.py).
         wrong = 1.5e-4 * operator.apply(np.abs(change)).max()
         assert np.abs(left).max() <= driver.contraction * unit + wrong
+
+
+def test_only_a_truncated_inverse_is_corrected_for_its_edges():
+    plane, ring = (
+        rc.half_space(rc.Grid((8, 6), 1.0), 2.0),
+        rc.ring(rc.RadialGrid.uniform(8, 1.0), 2.0),
+    )
+    assert FullGrid(plane).diagonal_correction > 0
+    assert FullGrid(ring).local_inverse is None
+    assert FullGrid(ring).diagonal_correction == 0

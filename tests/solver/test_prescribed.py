@@ -55,6 +55,38 @@ def test_every_product_is_counted_and_none_is_taken_of_nothing(watched, inside, 
     assert (found.steps == 0) == (np.count_nonzero(inside) < 1000)
 
 
+class Windowed(Watched):
+    """The same, which notes the windows that are cut out."""
+
+    def __init__(self, periodic):
+        super().__init__(periodic)
+        self.windows = []
+
+    def restrict(self, window):
+        self.windows.append(window)
+        return self.body.restrict(window)
+
+
+@pytest.mark.parametrize(
+    ("periodic", "rows", "columns", "cut"),
+    [
+        (False, 20, 30, True),
+        (False, 34, 39, False),
+        (True, 10, 30, True),
+        (True, 20, 30, False),
+    ],
+)
+def test_a_box_is_cut_out_where_its_padding_is_less_than_half_of_the_plane(periodic, rows, columns, cut):
+    """In a box nothing is periodic: it is padded to twice its sides, and a periodic plane is not."""
+    body, inside = Windowed(periodic), np.zeros(SHAPE, bool)
+    inside[7 : 7 + rows, 5 : 5 + columns] = region((rows, columns), share=0.9)
+    inside[7, 5] = inside[6 + rows, 4 + columns] = True
+    found = rc.prescribed_displacement(inside, 1.0, operator=body, tolerance=1e-10)
+    assert body.windows == [(slice(7, 7 + rows), slice(5, 5 + columns))] * cut
+    assert np.abs(body.body.apply(found.pressure)[inside] - 1).max() <= 2e-10
+    assert (found.pressure[~inside] == 0).all()
+
+
 @pytest.mark.parametrize("tolerance", [1e-3, 1e-10])
 def test_what_is_lacking_is_what_the_matrix_says(watched, inside, wanted, tolerance):
     """Other sums than those that told the error round otherwise, by 1e-16 of sums of some thousand terms."""
