@@ -252,6 +252,9 @@ class TestParts:
     ("shape", "share", "large", "is_list"),
     [
         ((64, 64), 0.05, 2**21, True),  # 205^2/4 look-ups are less than 1.5 x 4 x 4096
+        # More than a fifth is filled, so that only look-ups decide: up to 75 cells they are less than 1.5 x 4 x 240.
+        ((12, 20), 0.25, 2**21, True),
+        ((12, 20), 0.4, 2**21, False),
         ((300, 300), 0.05, 2**21, False),
         ((300, 300), 0.05, 90_000 - 1, True),
         ((300, 300), 0.05, 90_000, False),
