@@ -159,3 +159,14 @@ def test_without_work_it_is_contact_that_does_not_stick(law):
     assert sticking.force == pytest.approx(plain.force, rel=1e-8)
     assert (sticking.contact == plain.contact).all()
     np.testing.assert_allclose(sticking.pressure, plain.pressure, atol=1e-8 * plain.pressure.max())
+
+
+def test_under_a_force_a_small_sphere_is_where_its_depth_says():
+    """In metres: the approach begins at a gap within the range."""
+    rings = rc.RadialGrid.uniform(45, radius=6e-7)
+    ball = rc.RadialProfile(-(rings.radii**2) / 2e-5, rings)
+    law = rc.Adhesion(10e-3, 6e-9, "dugdale")
+    by_depth = rc.adhesive_state(ball, 1e8, law, depth=15e-9)
+    by_force = rc.adhesive_state(ball, 1e8, law, force=by_depth.force)
+    assert by_force.status.converged
+    assert by_force.depth == pytest.approx(15e-9, rel=1e-8)

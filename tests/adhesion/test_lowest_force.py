@@ -41,6 +41,13 @@ def test_it_is_the_same_whatever_the_points(kind):
     assert max(samples) <= 1 + FORCE_TOLERANCE
 
 
+def test_a_loop_ends_ten_ranges_apart():
+    """There nothing of the attraction bulges the bodies: the gap at the summit is the depth."""
+    found, reach = loop("ball", 2), SOFT.range
+    assert found.contact_area[-1] == 0
+    assert found.depth[-1] < -10 * reach <= found.depth[-2] * (1 - 1e-9)
+
+
 @pytest.mark.parametrize("kind", BODIES)
 def test_no_point_of_a_dense_path_has_a_lower_force(kind):
     surface, modulus, adhesion, turn = BODIES[kind]

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
+from roughcontact.adhesion.elastic_form import elastic_form
+from roughcontact.adhesion.path_states import _law_on
 from roughcontact.contact.problem import separation_of
 from sticking import rough, slow_path, sticky
 
@@ -162,6 +164,19 @@ def test_missing_cells_and_cells_that_do_not_stick():
     assert (state.pressure[np.isnan(heights)] == 0).all()
     assert (state.pressure[12:] >= 0).all()
     assert (state.pressure[:12] < 0).any()
+
+
+def test_nothing_is_attracted_beyond_the_grid_and_where_nothing_was_measured():
+    surface = rough(12, periodic=False, slope=0.2, seed=4)
+    separation = separation_of(surface).copy()
+    separation[3:6, 4:9] = np.inf
+    for law in ("exponential", "dugdale"):
+        adhesion = rc.Adhesion(0.01, RANGE, law)
+        form = elastic_form(rc.half_space(surface.grid, 1.0))
+        found = _law_on(adhesion, form, separation, 1.0)
+        assert found.strength == pytest.approx(adhesion.strength, rel=1e-12)
+        traction = found.traction(np.zeros(form.shape))
+        np.testing.assert_array_equal(traction > 0, form.extended(np.isfinite(separation), 0.0))
 
 
 def test_states_of_random_problems_are_certified_and_stable():

@@ -58,3 +58,12 @@ def test_rising_loads_rise_strictly():
 def test_what_is_no_row_of_numbers_is_refused(values, message):
     with pytest.raises(ValueError, match=message):
         Loads("force", values)
+
+
+def test_equal_loads_are_one_key():
+    """A zero has no sign."""
+    one, same = Loads("depth", [0.0, 2.0]), Loads("depth", [-0.0, 2.0])
+    others = [Loads("force", [0.0, 2.0]), Loads("depth", [2.0, 0.0]), Loads("depth", [0.0, 2.0, 2.0])]
+    assert one == same
+    assert not any(one == other for other in [*others, "depth"])
+    assert len({one, same, *others}) == 4

@@ -10,7 +10,7 @@ from libraries import Strict
 from roughcontact.arrays import namespace
 from roughcontact.kernels import loader
 from roughcontact.solver import nested_iteration, tuning
-from roughcontact.solver.control import Depth, State, Status
+from roughcontact.solver.control import Depth, Force, State, Status
 from roughcontact.solver.nested_iteration import (
     block_minimum,
     block_separation,
@@ -238,3 +238,21 @@ def test_on_coarse_cells_a_depth_is_as_far_from_full_contact():
     assert len(parts) > 1
     assert parts == pytest.approx([0.999] * len(parts), rel=1e-12)
     assert max(coarse) > 1
+
+
+@pytest.mark.parametrize(
+    ("control", "periodic"), [(Depth(0.4), False), (Force(50.0), True), (Force(50.0), False)], ids=str
+)
+def test_elsewhere_coarse_cells_carry_the_same_load(control, periodic):
+    grid = rc.Grid((64, 96), 1.0, periodic)
+    surface = rc.self_affine(grid, hurst=0.5, rms=0.3, rng=np.random.default_rng(1))
+    seen = []
+
+    class Watched:
+        def run(self, operator, separation, spec, initial):
+            seen.append(spec.control)
+            return rc.ActiveSet().run(operator, separation, spec, initial)
+
+    separation = surface.heights.max() - surface.heights
+    nested_start(rc.half_space(grid, 1.0), separation, control, Watched())
+    assert seen == [control]

@@ -277,3 +277,26 @@ def test_machine_code_is_asked_where_there_is_some(monkeypatch):
     conditions.evaluate(Iterate(p, u, s))
     conditions.predict_free_set(Iterate(p, u, s), depth=0.4, allowed=0.1)
     assert asked == ["extremes", "predict_active"]
+
+
+@pytest.mark.parametrize("compiled", [True, False])
+@pytest.mark.parametrize("control", CONTROLS)
+def test_a_start_is_what_presses_scaled_to_the_force(compiled, control, monkeypatch):
+    """Without tension and on measured cells only; where nothing is left the summit carries the load."""
+    if not compiled:
+        monkeypatch.setattr(loader, "is_available", lambda: False)
+    operator, rng = plane((5, 7)), np.random.default_rng(4)
+    spec, initial, separation = CONTROLS[control], rng.standard_normal((5, 7)), rng.random((5, 7))
+    separation[1, 2:5], separation[3, 4] = np.inf, -1.0
+    conditions = Optimality.of(operator, spec, separation)
+    wanted = np.where(np.isfinite(separation), np.maximum(initial, 0.0), 0.0)
+    if control == "force":
+        wanted *= spec.control.value / (wanted.sum() * operator.weights)
+    found = conditions.feasible_start(separation, initial)
+    np.testing.assert_allclose(found, wanted, rtol=1e-14)
+    alone = conditions.feasible_start(separation, -np.abs(initial))
+    assert np.flatnonzero(alone).tolist() == [3 * 7 + 4]
+    if control == "force":
+        assert alone.sum() * operator.weights == pytest.approx(spec.control.value, rel=1e-14)
+    else:
+        assert operator.apply(alone)[3, 4] == pytest.approx(spec.control.value, rel=1e-12)

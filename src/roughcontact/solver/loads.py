@@ -63,7 +63,7 @@ class Loads:
         )
 
     def __hash__(self) -> int:
-        return hash((self.kind, self.values.tobytes()))
+        return hash((self.kind, *self.values.tolist()))
 
     @classmethod
     def of(cls, **given: Any) -> Loads:

@@ -124,6 +124,19 @@ def test_what_is_broken_is_named(changed, words):
         rc.check_operator(Changed(rc.half_space(GRID, 2.0), **changed))
 
 
+def test_a_sum_in_single_precision_may_round_as_many_cells_do():
+    """By 64 roundings times the root of the number of cells: 1.1e-4 of 216 cells."""
+    body = rc.half_space(GRID, 2.0)
+
+    def checked(error):
+        able = rc.Capabilities(single_convolution=lambda p: ((1 + error) * body.apply(p)).astype(np.float32))
+        return rc.check_operator(Changed(body, capabilities=able))
+
+    assert checked(1e-4)[-1].departure == pytest.approx(1e-4, rel=1e-2)
+    with pytest.raises(ValueError, match="not equal to its convolution in single precision"):
+        checked(1.3e-4)
+
+
 def test_a_body_that_is_unstable_is_not_definite():
     shift = 0.5
 

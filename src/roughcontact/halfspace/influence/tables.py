@@ -164,7 +164,7 @@ class _Table:
 
     def covers(self, shape: tuple[int, int]) -> bool:
         """Whether it has room to both sides for offsets within a shape."""
-        return 0 < self.first >= shape[1] and self.whole.shape[0] >= shape[0]
+        return self.first >= shape[1] and self.whole.shape[0] >= shape[0]
 
     def at(self, rows: Offsets, columns: Offsets) -> Array:
         """Return single values; no offset is negative."""
