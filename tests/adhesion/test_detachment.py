@@ -9,8 +9,6 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.adhesion.detachment import StuckContact, mean_compliance
-from roughcontact.adhesion.detachment_path import _residual
-from roughcontact.contact.press import solve
 from roughcontact.contact.problem import separation_of
 from sticking import rough
 
@@ -370,51 +368,6 @@ def test_a_single_cell_without_pressure_has_its_certificate(loads):
     (state,) = rc.detachment_path(pressed, 1.0, **loads)
     assert state.contact.sum() == 1
     assert state.status.converged
-
-
-def test_each_cell_may_have_its_own_work_of_adhesion():
-    surface = rough(16, periodic=False, slope=0.2, seed=0)
-    pressed = rc.press(surface, 1.0, depth=0.4)
-    even, same = (rc.detachment_curve(pressed, work) for work in (0.01, np.full((16, 16), 0.01)))
-    np.testing.assert_array_equal(same.depth, even.depth)
-    np.testing.assert_array_equal(same.energy, even.energy)
-    weak = np.where(np.arange(16) < 8, 1e-6, 0.01) * np.ones((16, 1))
-    problem = pressed.problem
-    few = (problem.operator, problem.separation, pressed.contact, np.full((16, 16), 1e-6))
-    most = StuckContact(*few, mean_compliance(surface.grid, 1.0)).strength
-    tensions = [-state.pressure for state in rc.detachment_path(pressed, weak, depths=[0.3, 0.1, 0.0])]
-    assert all(tension[:, :8].max() <= most * (1 + 1e-9) for tension in tensions)
-    assert max(tension[:, 8:].max() for tension in tensions) > 10 * most
-
-
-def test_a_state_becomes_a_dataset_with_the_heights_if_it_has_any():
-    surface = rough(16, periodic=True, slope=0.2, seed=0)
-    pressed = rc.press(surface, 1.0, depth=0.4)
-    (state,) = rc.detachment_path(pressed, 0.01, depths=[0.3])
-    dataset = state.to_dataset()
-    np.testing.assert_array_equal(dataset["heights"], surface.heights)
-    np.testing.assert_array_equal(dataset["contact"], state.contact)
-    assert float(dataset["force"]) == state.force
-    gap = surface.heights.max() - surface.heights
-    problem = rc.ContactProblem(gap, rc.half_space(surface.grid, 1.0), rc.Depth(0.4))
-    (bare,) = rc.detachment_path(solve(problem), 0.01, depths=[0.3])
-    assert "heights" not in bare.to_dataset()
-
-
-@pytest.mark.parametrize("side", [1e-3, 30.0])
-def test_the_certificate_holds_an_error_of_the_force(side):
-    """Relative to the forces on the cells, whatever their area."""
-    surface = rc.Surface(rough(16, periodic=False, slope=0.2, seed=0).heights * side, rc.Grid((16, 16), side))
-    pressed = rc.press(surface, 1.0, depth=0.4 * side)
-    problem, work = pressed.problem, np.full((16, 16), 0.01 * side)
-    stuck = StuckContact(problem.operator, problem.separation, pressed.contact, work, None)
-    depth = stuck.depth(0.0)
-    pressure, _ = stuck.pressure(depth)
-    forces = np.abs(pressure).sum() * side**2
-    for wrong in (0.1 * forces, -0.2 * forces):
-        found = _residual(problem, stuck, pressure, depth, wrong)
-        assert found == pytest.approx(abs(wrong) / forces, rel=1e-6)
-    assert _residual(problem, stuck, pressure, depth, 0.0) <= 1e-9
 
 
 def test_pressures_are_forces_over_the_area():
