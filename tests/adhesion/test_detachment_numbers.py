@@ -84,12 +84,12 @@ def test_a_state_becomes_a_dataset_and_a_record_with_the_heights_if_it_has_any(s
     for data in (dataset, record):
         assert float(data["lost_energy"]) == state.lost
         assert len(data["detachment_depth"]) == len(state.detachments) > 0
-    assert record["rms_height"] == float(dataset["rms_height"]) == SURFACE.rms
+    assert record["rms"] == float(dataset["rms"]) == SURFACE.rms
     gap = SURFACE.heights.max() - SURFACE.heights
     problem = rc.ContactProblem(gap, rc.half_space(GRID, 1.0), rc.Depth(0.4))
     (bare,) = rc.detachment_path(solve(problem), WORK, depths=[0.3])
     assert "heights" not in bare.to_dataset()
-    assert "rms_height" not in bare.to_record()
+    assert "rms" not in bare.to_record()
 
 
 def test_each_cell_may_have_its_own_work_of_adhesion():
