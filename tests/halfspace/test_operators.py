@@ -204,6 +204,14 @@ def test_nonsense_is_refused(grid, more, message):
         rc.half_space(grid, **({"modulus": 1.0} | more))
 
 
+def test_an_operator_of_another_modulus_is_refused():
+    surface = rc.shapes.paraboloid(rc.Grid((8, 8), 1e-6), radius=1e-4)
+    body = rc.half_space(surface.grid, 2e9)
+    assert rc.press(surface, 2e9, force=1e-4, operator=body).status.converged
+    with pytest.raises(ValueError, match=r"a reduced modulus of 2e\+09 Pa, and 1e\+09 Pa is asked for"):
+        rc.press(surface, 1e9, force=1e-4, operator=body)
+
+
 class Asked:
     """A body that counts how often it is asked for its matrix."""
 

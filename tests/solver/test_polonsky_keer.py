@@ -56,3 +56,19 @@ def test_a_flat_punch_at_a_given_depth():
     assert state.status.converged
     exact = np.linalg.solve(operator.as_matrix(), np.full(grid.size, 0.1)).reshape(grid.shape)
     np.testing.assert_allclose(state.pressure, exact, rtol=1e-9)
+
+
+@pytest.mark.parametrize("solver", [rc.PolonskyKeer(), rc.ActiveSet(), rc.ActiveSet(dense_limit=0)], ids=str)
+def test_at_the_depth_of_full_contact_one_cell_has_no_pressure(solver):
+    """Westergaard's wave at its first full contact; a larger constant pressure would move nothing."""
+    grid = rc.Grid((24, 16), (0.5, 0.75), periodic=True)
+    wave = np.cos(2 * np.pi * np.arange(24) / 24)[:, None] * np.ones(16)
+    q = 2 * np.pi / grid.lengths[0]
+    spec = Specification(Depth(0.1), tolerance=1e-10)
+    state = solver.run(rc.half_space(grid, MODULUS), 0.1 * (1 - wave), spec, np.zeros(grid.shape))
+    assert state.status.converged
+    assert state.pressure.min() == 0
+    exact = MODULUS * q / 2 * 0.1 * (1 + wave)
+    # The shortest waves turn gaps within the tolerance into pressures that are the most.
+    most = MODULUS / 2 * np.pi * np.hypot(1 / 0.5, 1 / 0.75)
+    assert np.abs(state.pressure - exact).max() <= 2 * most * 1e-10 * 0.1
