@@ -150,10 +150,15 @@ def tiff(z, *, order="<", rows=None, deflate=False, tags=(), bits=None, **change
     return head + b"".join(strips) + count + b"".join(entries) + struct.pack(order + "I", 0) + beyond
 
 
-def nanoscope(counts, *, size, aspect, scan_aspect="1:1", lines=None, scan=(), names=("Height",), spare=b""):
-    """Return a Nanoscope file of 16 bits with one image a name; `scan` are more lines of its scan list."""
+def nanoscope(
+    counts, *, size, aspect, scan_aspect="1:1", lines=None, scan=(), names=("Height",), spare=b"", width=2
+):
+    """Return a Nanoscope file of `width` bytes a point with one image a name; `scan` are more lines of its scan list.
+
+    A count is NANOSCOPE_STEP in 2 bytes, and a 65536th of it in 4.
+    """
     ny, nx = counts.shape
-    body, start = np.ascontiguousarray(counts[::-1], dtype="<i2").tobytes(), 4096
+    body, start = np.ascontiguousarray(counts[::-1], dtype=f"<i{width}").tobytes(), 4096
     head = [
         r"\*File list",
         r"\Version: 0x05300001",
@@ -175,7 +180,7 @@ def nanoscope(counts, *, size, aspect, scan_aspect="1:1", lines=None, scan=(), n
             rf"\Data length: {len(body)}",
         ]
         head += [
-            r"\Bytes/pixel: 2",
+            rf"\Bytes/pixel: {width}",
             rf"\Samps/line: {nx}",
             rf"\Number of lines: {ny}",
             rf"\Scan Size: {size}",

@@ -31,7 +31,10 @@ RIGHT = [
     ((16, 64), "2 2 ~m", "2:1", "1:1", 32, 0.5),  # stopped early, its cells oblong
     ((16, 32), "2000 2000 nm", "2:1", "2:1", 16, 0.5),
     ((16, 32), "2 ~m", "2:1", "2:1", 16, 0.5),
+    ((16, 32), "0.002 0.001 mm", "2:1", "2:1", 16, 0.5),
     ((16, 32), "2 2 ~m", None, "2:1", 16, 0.5),
+    ((16, 32), "2 2 ~m", "1.01:1", "1:1", 16, 1.0),  # a whole square scan, its ratio inexact
+    ((200, 32), "2 2 ~m", "0.1612:1", "0.1612:1", 200, 6.25),  # 0.75 % off: within a line and half a percent
 ]
 
 
@@ -50,6 +53,14 @@ def test_the_size_is_right(put, shape, size, aspect, scan, lines, ratio, names):
         np.testing.assert_allclose(channel.size, surface.grid.lengths, rtol=1e-12)
 
 
+def test_images_of_four_bytes_a_point(put):
+    z = counts(16, 32)
+    data = nanoscope(z * 65536, size="2 2 ~m", aspect="2:1", scan_aspect="2:1", width=4)
+    surface = rc.read(put("a.spm", data))
+    np.testing.assert_allclose(surface.grid.lengths, (1e-6, 2e-6), rtol=1e-12)
+    np.testing.assert_allclose(surface.heights, z * NANOSCOPE_STEP, rtol=1e-12, atol=1e-22)
+
+
 def test_a_slow_axis_of_its_own_is_the_height(put):
     data = nanoscope(
         counts(16, 32), size="2 2 ~m", aspect="2:1", scan_aspect="2:1", scan=[r"\Slow Axis Size: 1 ~m"]
@@ -64,6 +75,7 @@ OPEN = [
     ((16, 32), "2 2 ~m", "1:2", "1:2", 16),
     ((16, 32), "2 0.7 ~m", "2:1", "2:1", 16),
     ((30, 32), "2 2 ~m", "0.51216:1", "0.51216:1", 30),
+    ((200, 32), "2 2 ~m", "0.1622:1", "0.1622:1", 200),  # 1.4 % off: more than a line and half a percent
 ]
 
 
@@ -79,6 +91,15 @@ def test_sizes_that_contradict_each_other_are_asked_about(put, shape, size, aspe
     surface = rc.read(path, size=("1 um", "2 um"))
     np.testing.assert_allclose(surface.grid.lengths, (1e-6, 2e-6), rtol=1e-12)
     np.testing.assert_allclose(surface.heights, z * NANOSCOPE_STEP, rtol=1e-12, atol=1e-22)
+
+
+def test_a_width_of_zero_is_replaced_by_the_size_that_is_given(put):
+    path = put("a.001", nanoscope(counts(16, 32), size="0 1 ~m", aspect="2:1", scan_aspect="2:1"))
+    with pytest.raises(rc.ReadError, match=r"it states cells of .* x 0 m; pass size="):
+        rc.read(path)
+    with pytest.warns(SurfaceWarning, match="as given, instead of the file's"):
+        surface = rc.read(path, size=("1 um", "2 um"))
+    assert surface.grid.lengths == pytest.approx((1e-6, 2e-6), rel=1e-12)
 
 
 @pytest.mark.parametrize("spare", [b"\0", b"\0" * 63])

@@ -121,7 +121,7 @@ ENGLISH = [
     ("Minimum value", "-1.6"),
     ("Unit", "um"),
     ("Reference data name", ""),
-    (),
+    ("",),
     ("Height",),
 ]
 GERMAN = [
@@ -153,9 +153,15 @@ def test_keyence(put, header, separator, decimal, encoding):
     assert f"(Keyence text, channel {header[-1][0]!r}," in surface.provenance[0]
 
 
-def test_keyence_holes_are_told(put):
-    with pytest.warns(SurfaceWarning, match="fields read as missing points: 256 empty"):
-        is_right(rc.read(put("a.csv", keyence(ENGLISH, values=HOLED))), HOLED)
+@pytest.mark.parametrize(
+    "hole", [(slice(8, 24), slice(10, 26)), (0, slice(0, 5)), (0, 2), slice(0, 3), (-1, -1), slice(30, None)]
+)
+def test_keyence_holes_are_told(put, hole):
+    """Also in the first fields, and over whole rows."""
+    holed = HILLS.copy()
+    holed[hole] = np.nan
+    with pytest.warns(SurfaceWarning, match=f"read as missing points: {np.isnan(holed).sum()} empty"):
+        is_right(rc.read(put("a.csv", keyence(ENGLISH, values=holed))), holed)
 
 
 @pytest.mark.parametrize(
@@ -174,6 +180,18 @@ def test_keyence_holes_are_told(put):
 def test_keyence_that_is_incomplete(put, old, new, message):
     with pytest.raises(rc.ReadError, match=message):
         rc.read(put("a.csv", keyence([new if line == old else line for line in ENGLISH])))
+
+
+def test_keyence_that_is_cut_short(put):
+    text = keyence(ENGLISH)
+    first = text.index(table(quoted=True)[:40])  # of the heights
+    for end, message in (
+        (first + 100, "holds 1 rows and states 32"),
+        (first, "without heights"),
+        (-100, "cut short"),
+    ):
+        with pytest.raises(rc.ReadError, match=message):
+            rc.read(put("a.csv", text[:end]))
 
 
 def test_keyence_of_another_image(put):

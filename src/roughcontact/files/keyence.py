@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import csv
+import itertools
 import re
 
-from roughcontact.files.fields import is_number, number_of
+from roughcontact.files.fields import is_mark, is_number, number_of
 from roughcontact.files.file_errors import ContentError
 from roughcontact.files.heightmap import HeightMap, as_heights
 from roughcontact.files.length_units import is_length, length_factor
@@ -23,12 +24,10 @@ def read_keyence(text: str) -> HeightMap:
     """Return the heights of an export; the one value followed by a unit is the side of a cell."""
     separator = re.search(r"[;,\t]", text)
     # A quoted label may extend over two lines.
-    rows = list(csv.reader(text.splitlines(keepends=True), delimiter=separator[0] if separator else ","))
+    rows = csv.reader(text.splitlines(), delimiter=separator[0] if separator else ",")
     fields = [[field.strip() for field in row] for row in rows]
-    first = next(
-        (k for k, row in enumerate(fields) if len(row) > 1 and all(map(_is_number, row[:2]))), len(fields)
-    )
-    header, heights = fields[:first], [row for row in fields[first:] if any(row)]
+    header = list(itertools.takewhile(lambda row: not _holds_heights(row), fields))
+    heights = [row for row in fields[len(header) :] if len(row) > 1]
     if not heights:
         raise ContentError(
             "it is a text of Keyence without heights", "export it with the data of its height image"
@@ -58,3 +57,7 @@ def read_keyence(text: str) -> HeightMap:
 
 def _is_number(field: str) -> bool:
     return is_number(field.replace(",", "."))
+
+
+def _holds_heights(row: list[str]) -> bool:
+    return len(row) > 1 and all(is_mark(field) or _is_number(field) for field in row)

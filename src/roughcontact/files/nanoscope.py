@@ -41,13 +41,12 @@ def _factor(image: Mapping[str, str], scan: Mapping[str, str]) -> float | str:
     lines = _number(scan, "lines")
     # A square scan that was stopped early covers a share of its lines; otherwise the cells are square.
     by_lines = ny / lines if _ratio(scan.get("aspect ratio", "")) == 1 and lines >= ny else ny / nx
-    sides = [float(word) for word in size.split()[:2] if _is_number(word)]
+    sides = [float(word) for word in size.split() if _is_number(word)]
     whole = _number(image, "data length") in (2 * nx * ny, 4 * nx * ny)
     stated = sides[1] / sides[0] if len(sides) == 2 and sides[0] > 0 else 1.0
-    tolerance = 1 / ny + _ROUNDED if ny > 0 else 0.0
-    if whole and stated == 1 and math.isclose(1 / ratio, by_lines, rel_tol=tolerance):
+    if whole and stated == 1 and math.isclose(1 / ratio, by_lines, rel_tol=1 / ny + _ROUNDED):
         return by_lines
-    if whole and stated != 1 and math.isclose(1 / ratio, stated, rel_tol=tolerance):
+    if whole and stated != 1 and math.isclose(1 / ratio, stated, rel_tol=1 / ny + _ROUNDED):
         return 1.0
     return (
         f"a scan size of {size}, an aspect ratio of {image.get('aspect ratio')} and {nx:g} x {ny:g} points (x, y), "
