@@ -9,6 +9,7 @@ import numpy as np
 
 from roughcontact.arrays import is_numpy, namespace
 from roughcontact.files.noisy_rows import noisy_rows
+from roughcontact.surface.preparation.regular_subset import regular_subset
 from roughcontact.surface.preparation.spikes import spikes_in
 from roughcontact.validation import Array
 
@@ -23,7 +24,6 @@ _FLATTEST = 1e-14  # smallest credible rms height [m]: an atom is ten thousand t
 IMPOSSIBLE = 1e9  # [m]
 _FAR = 100.0  # interquartile ranges from the median
 _ENOUGH = 1000  # points for statistics
-_CHOSEN = 100_000  # points from which a quantile is computed
 _ENOUGH_IN_A_ROW = 32
 # Equal neighbours, and the ratio to the second longest run: a plateau has similar runs in each row.
 _RUN, _LONGER = 12, 4
@@ -177,8 +177,7 @@ def _noise(heights: Array) -> float:
 
 def _quantile(values: Array, share: float) -> float:
     """Return a quantile of the numbers in a regular subset of `values`; 0 if there is none."""
-    # An odd stride visits every column of a map, whose width is usually even.
-    chosen = values.reshape(-1)[:: 2 * (values.size // _CHOSEN // 2) + 1]
+    chosen = regular_subset(values)
     numbers = chosen[~np.isnan(chosen)]
     if numbers.size == 0:
         return 0.0

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from roughcontact.surface.preparation.regular_subset import regular_subset
 from roughcontact.validation import Array
 
 __all__ = ["OUTLYING", "height_limits", "without_far"]
@@ -11,7 +12,6 @@ __all__ = ["OUTLYING", "height_limits", "without_far"]
 _FAR = 4.0  # interquartile ranges beyond the quartiles: 1e-8 of the values of a normal distribution
 _FEW = 0.02  # of the values: a larger share, of pits or peaks, is not an outlier
 OUTLYING = 8.0  # rms heights: the highest of 10^14 points of a Gaussian surface is lower
-_CHOSEN = 100_000  # heights from which quantiles and moments are computed
 
 
 def without_far(values: Array, few: float = _FEW) -> Array:
@@ -27,8 +27,7 @@ def height_limits(heights: Array) -> tuple[float, float]:
 
     They are rounded to three digits for display.
     """
-    # An odd stride visits every column of a map, whose width is usually even.
-    chosen = heights.reshape(-1)[:: 2 * (heights.size // _CHOSEN // 2) + 1]
+    chosen = regular_subset(heights)
     measured = chosen[~np.isnan(chosen)]
     if measured.size == 0:
         measured = heights[~np.isnan(heights)]

@@ -9,6 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from roughcontact.surface.in_memory import analysed_on_host
+from roughcontact.surface.preparation.regular_subset import regular_subset
 from roughcontact.surface.preparation.streaks import LONG, streaks_in, tail_of
 from roughcontact.surface.surface import Surface
 from roughcontact.validation import Array, Mask, numeric
@@ -20,7 +21,6 @@ _GROUP = 3  # one in this number of cells of a window may stand out: 2 of 9 and 
 _EXTENT = 0.5  # of the limit: neighbours that stand out by this much belong to a spike ...
 _LARGEST = 2  # ... which has at most half the cells of a window
 _AROUND = {1: 30, 2: 7}  # cells from a spike within which the steps measure the roughness of its surroundings
-_CHOSEN = 100_000  # windows from which the quantiles are computed
 _FEWEST = 100
 _PASSES = 4  # over the flanks of spikes that were found
 _SLAB = 2**14  # windows sorted at once
@@ -151,8 +151,7 @@ def _limits(
     heights: Array, periodic: tuple[bool, ...], measured: npt.NDArray[np.int64]
 ) -> tuple[float, float]:
     """Return the quantile q90 of the widest steps, and the limit beyond which a step makes a spike [m]."""
-    # An odd stride visits every column of a map, whose width is usually even.
-    chosen = measured[:: 2 * (measured.size // _CHOSEN // 2) + 1]
+    chosen = regular_subset(measured)
     steps = _steps(_padded(heights, periodic), np.stack(np.unravel_index(chosen, heights.shape), axis=1))
     most, limit = tail_of(steps, measured.size)
     return most, max(limit, _ROUNDING * float(np.nanmax(np.abs(heights))))

@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 
+from roughcontact.surface.preparation.regular_subset import regular_subset
 from roughcontact.validation import Array, Mask
 
 __all__ = ["LONG", "pieces_along_rows", "stands_out", "streaks_and_pieces", "streaks_in", "tail_of"]
@@ -118,8 +119,7 @@ def _steps_between_lines(heights: Array) -> tuple[Array, float, float]:
     sizes = np.abs(steps[~np.isnan(steps)])
     if sizes.size < _FEWEST:
         return steps, math.inf, math.inf
-    # An odd stride visits every column of a map, whose width is usually even.
-    chosen = sizes[:: 2 * (sizes.size // _CHOSEN // 2) + 1]
+    chosen = regular_subset(sizes)
     _, limit = tail_of(chosen, sizes.size)
     limit = max(limit, _ROUNDING * float(np.nanmax(np.abs(heights))))
     return steps, float(np.median(chosen)), limit
