@@ -8,6 +8,7 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.contact.memory_needed import largest_maps
+from roughcontact.contact.problem import separation_of
 from roughcontact.kernels import buffers
 from roughcontact.threads import limit_threads
 
@@ -102,3 +103,9 @@ def test_the_largest_maps_are_the_largest_that_fit(memory):
         fits = [rc.memory_needed(rc.Grid((n, n), 1.0))[which] + 8 * n * n <= memory for n in (side, side + 1)]
         assert fits == [True, False]
     assert largest_maps(0.0) == (0, 0)
+
+
+def test_the_gap_at_first_touch_takes_one_plane_and_a_mask():
+    """8 bytes a cell and 1; the few kilobytes of a mask's totals are less than an eighth of a plane."""
+    rough = surface("free", 256)
+    assert peak(lambda: separation_of(rough)) < (8 + 2) * 256**2

@@ -14,6 +14,7 @@ import pytest
 from scipy.io import savemat
 
 import roughcontact as rc
+from instruments import TEXT, hills, tiff
 from roughcontact.files.file_errors import SurfaceWarning
 from roughcontact.files.read import channels, read_either
 
@@ -100,6 +101,18 @@ def test_rubbish_is_refused_under_any_name(put, name, content):
             rc.read(put(name, content), unit="um", size=1e-5)
         with pytest.raises(rc.ReadError, match=name):
             channels(put(name, content))
+
+
+@pytest.mark.parametrize(
+    "tag", [(50432, 3, [1]), (0x8000, 3, [1]), (0x8050, 3, [1]), (270, TEXT, b"TiffTagDescData\0")]
+)
+def test_a_file_of_an_instrument_is_not_read_as_grey_values(put, tag):
+    """Park, JPK and Olympus state the unit and the size in tags of their own: these files have nothing else of them."""
+    pytest.importorskip("tifffile")
+    path = put("a.tif", tiff(np.rint(hills() * 100 + 400).astype("u2"), tags=[tag]))
+    for reader in (lambda: rc.read(path, unit="nm", size=1e-5), lambda: channels(path)):
+        with pytest.raises(rc.ReadError, match="it holds no channel that can be read; export it"):
+            reader()
 
 
 class ByName:

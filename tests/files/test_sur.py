@@ -25,6 +25,7 @@ def sur(
     unit="µm",
     lateral="mm",
     comment=b"",
+    private=b"",
     missing=None,
     encoding="latin-1",
     **fields,
@@ -49,7 +50,7 @@ def sur(
             "16s16s16s",
             (lateral.encode(encoding or "latin-1"),) * 2 + (unit.encode(encoding or "latin-1").ljust(16),),
         ),
-        (334, "<H", len(comment)),
+        (334, "<HH", (len(comment), len(private))),
         *fields.values(),
     ):
         struct.pack_into(form, head, where, *(value if isinstance(value, tuple) else (value,)))
@@ -59,14 +60,16 @@ def sur(
         streams = [zlib.compress(part) for part in parts]
         table = b"".join(struct.pack("<II", len(a), len(b)) for a, b in zip(parts, streams, strict=True))
         body = struct.pack("<I", len(parts)) + table + b"".join(streams)
-    return bytes(head) + comment + body
+    return bytes(head) + comment + private + body
 
 
 @pytest.mark.parametrize("bits", [16, 32])
 @pytest.mark.parametrize("packed", [0, 1, 3])
-@pytest.mark.parametrize("comment", [b"", b"some words"])
-def test_whole_numbers_times_their_step(put, bits, packed, comment):
-    surface = rc.read(put("a.sur", sur(bits=bits, packed=packed, comment=comment)))
+@pytest.mark.parametrize(
+    ("comment", "private"), [(b"", b""), (b"some words", b""), (b"words", b"of a program")]
+)
+def test_whole_numbers_times_their_step(put, bits, packed, comment, private):
+    surface = rc.read(put("a.sur", sur(bits=bits, packed=packed, comment=comment, private=private)))
     np.testing.assert_allclose(surface.heights, COUNTS * STEP * 1e-6, rtol=1e-15)
     np.testing.assert_allclose(surface.grid.spacing, (2e-3, 0.5e-3), rtol=1e-15)
     assert surface.provenance[0].startswith("read from a.sur (Digital Surf, channel 'Z', sha256 ")
@@ -115,11 +118,28 @@ def test_units_in_either_encoding(put, encoding, packed):
     np.testing.assert_allclose(surface.grid.spacing, (2e-6, 0.5e-6), rtol=1e-15)
 
 
+def test_each_direction_has_its_unit(put):
+    surface = rc.read(
+        put("a.sur", sur(unit="nm", lateral="mm", dy_unit=(196, "16s", "µm".encode("latin-1"))))
+    )
+    np.testing.assert_allclose(surface.heights, COUNTS * STEP * 1e-9, rtol=1e-15)
+    np.testing.assert_allclose(surface.grid.spacing, (2e-6, 0.5e-3), rtol=1e-15)
+
+
 @pytest.mark.parametrize("packed", [0, 2])
 @pytest.mark.parametrize("spare", [b"x", b"\0" * 8])
 def test_bytes_behind_its_heights_are_warned_of(put, packed, spare):
     with pytest.warns(SurfaceWarning, match=f"{len(spare)} bytes at its end belong to no height"):
         surface = rc.read(put("a.sur", sur(packed=packed) + spare))
+    np.testing.assert_allclose(surface.heights, COUNTS * STEP * 1e-6, rtol=1e-15)
+
+
+def test_a_byte_more_in_a_stream_is_warned_of(put):
+    body = COUNTS.astype("<i4").tobytes() + b"\0"
+    stream = zlib.compress(body)
+    path = put("a.sur", sur(packed=1)[:512] + struct.pack("<III", 1, len(body), len(stream)) + stream)
+    with pytest.warns(SurfaceWarning, match="1 bytes at its end belong to no height"):
+        surface = rc.read(path)
     np.testing.assert_allclose(surface.heights, COUNTS * STEP * 1e-6, rtol=1e-15)
 
 
@@ -145,6 +165,9 @@ def test_arbitrary_units_are_named(put):
         ((108, "<i", 5), "3 x 5 points"),
         ((108, "<i", -4), "3 x -4 points"),
         ((120, "<f", -1.0), "steps of -1"),
+        ((120, "<f", 0.0), "steps of 0, 2, 0.25 "),
+        ((124, "<f", 0.0), "steps of 0.5, 0, 0.25 "),
+        ((128, "<f", 0.0), "steps of 0.5, 2, 0 "),
         ((128, "<f", float("nan")), "steps of .*nan"),
         ((334, "<H", 60000), "cut short"),
     ],
@@ -161,6 +184,8 @@ def test_damage_is_refused_or_named(put, packed):
     for end in (100, 511, 512, 530, len(whole) - 1):
         with pytest.raises(rc.ReadError, match=r"a\.sur"):
             rc.read(put("a.sur", whole[:end]))
+    with pytest.raises(rc.ReadError, match="holds 0 of 48 bytes of heights" if not packed else "are damaged"):
+        rc.read(put("a.sur", whole[:512]))
     spoilt = bytearray(whole)
     spoilt[-3] ^= 0x40
     if packed:

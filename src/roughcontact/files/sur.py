@@ -139,9 +139,8 @@ def _unpacked(packed: bytes, expected: int) -> tuple[bytes, int]:
     """
     with damage("its compressed heights are damaged", _AGAIN, (struct.error, zlib.error, ValueError)):
         (streams,) = struct.unpack_from("<I", packed)
-        lengths = struct.unpack_from(f"<{2 * streams}I", packed, 4) if streams <= expected else ()
         place, parts, left = 4 + 8 * streams, [], expected
-        for whole, part in zip(lengths[::2], lengths[1::2], strict=True):
+        for whole, part in struct.iter_unpack("<II", packed[4:place]):
             unpacker = zlib.decompressobj()
             parts.append(unpacker.decompress(packed[place : place + part], min(whole, left) + 1))
             if len(parts[-1]) != whole or not unpacker.eof:
