@@ -119,6 +119,7 @@ def test_a_spike_is_named_at_the_lightest_resolved_load_where_it_carries_most(tm
     heights = rc.self_affine(rc.Grid((128, 128), 1e-6), 0.8, 1e-7, np.random.default_rng(3)).heights.copy()
     for row, column in np.ndindex(4, 4):
         heights[30 * row + 10 :, 30 * column + 10 :][:3, :3] = 1.2e-6
+    heights[64, 64] = np.nan  # noted at the largest load of a curve only
     surface = rc.Surface(heights, rc.Grid((128, 128), 1e-6))
     curve = rc.loading_curve(surface, 1e9, forces=[0.003, 0.03, 0.1])
     assert curve.resolved.all()
@@ -129,6 +130,8 @@ def test_a_spike_is_named_at_the_lightest_resolved_load_where_it_carries_most(tm
     parts = [rc.loading_curve(surface, 1e9, forces=forces) for forces in ([0.1], [0.003, 0.03])]
     both = joined(*parts)
     assert note in both.notes
+    assert {force for force, _ in both.state_notes} == set(both.force[[0, 2]])
+    assert joined(*reversed(parts)).state_notes == both.state_notes
     assert not any(each.startswith("At ") for each in part_of(both, both.force > 0.05).notes)
     missed = replace(curve, status=(curve.status[0], Status.MAX_STEPS, curve.status[2]))
     assert missed.notes[0] == "1 of 3 loads missed the tolerance: see their status"

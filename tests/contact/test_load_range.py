@@ -147,6 +147,18 @@ def test_loads_are_even_in_stiffness_and_area_and_not_in_close_pairs():
     assert curve.fit().count >= 3
 
 
+def test_loads_of_punches_are_even_in_force():
+    """Three pillars that keep area and stiffness until their mean pressure is half of the modulus."""
+    heights = np.zeros((64, 48))
+    heights[5:15, 5:15] = heights[40:50, 4:14] = heights[30:40, 30:42] = 1e-4
+    found = rc.load_range(rc.Surface(heights, rc.Grid((64, 48), 1e-6)), 1e9)
+    assert found.highest == pytest.approx(0.5e9 * 320e-12, rel=NEAR)
+    # Steps of forces that are rounded to three digits, each by half of its last one.
+    steps = np.diff(np.log(found.forces[found.below :]))
+    np.testing.assert_allclose(steps, math.log(found.highest / found.lowest) / 19, atol=0.011)
+    assert found.forces[-1] == pytest.approx(found.highest, rel=5e-3)
+
+
 def test_loads_follow_the_scales():
     surface = rough(64)
     found = rc.load_range(surface, 1e9)

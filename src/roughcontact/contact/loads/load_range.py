@@ -161,13 +161,18 @@ def _loads(search: LoadSearch, count: int, surface: Body) -> LoadRange:
 
 
 def _even(search: LoadSearch, low: float, high: float, count: int) -> Array:
-    """Return the forces of a range, evenly spaced in the sum of ln k and ln A, each relative to its range."""
-    force, way = np.log(search.column("force")), 0.0
-    for quantity in (search.column("stiffness"), search.column("area")):
-        rising = np.log(np.maximum.accumulate(quantity))
-        start, end = np.interp(np.log([low, high]), force, rising)
-        way = way + (rising - start) / (end - start or 1.0)
-    return np.asarray(np.exp(np.interp(np.linspace(0, 2, count), way, force)))
+    """Return the forces of a range, evenly spaced in the sum of ln k and ln A, each relative to its range.
+
+    Punches with flat ends change neither: their forces are evenly spaced in ln F.
+    """
+    force, ends = np.log(search.column("force")), np.log([low, high])
+    rising = [np.log(np.maximum.accumulate(search.column(name))) for name in ("stiffness", "area")]
+    changed = [each for each in rising if np.ptp(np.interp(ends, force, each)) > 10.0**-DIGITS] or [force]
+    way = np.zeros(len(force))
+    for each in changed:
+        start, end = np.interp(ends, force, each)
+        way += (each - start) / (end - start)
+    return np.asarray(np.exp(np.interp(np.linspace(0, len(changed), count), way, force)))
 
 
 def _distinct(forces: Array, count: int) -> Array:
