@@ -86,6 +86,28 @@ def test_a_periodic_map_that_does_not_close_is_doubtful():
     assert "heights step by 15 mm from one edge to the opposite one, 15 times as much" in note.text
 
 
+def test_limits_of_pressure_and_depth():
+    """A flat map of 4 x 5 cells of unit area, on which pressures and depths are put by hand."""
+    grid = rc.Grid((4, 5), 1.0)
+    flat = rc.press(rc.Surface(np.zeros(grid.shape), grid), ("steel", "aluminium"), force=1e6)
+
+    def told(words, cells=0, pressure=0.0, **changed):
+        loaded = np.where(np.arange(20) < cells, pressure, 1e5).reshape(4, 5)
+        return any(words in note for note in replace(flat, pressure=loaded, **changed).notes)
+
+    hardness, modulus = flat.problem.softer.hardness, flat.problem.modulus
+    for cells, share in ((0, None), (3, None), (4, 20), (5, 25), (20, 100)):
+        found = told("exceeds the hardness of aluminium", cells, 1.1 * hardness)
+        assert (
+            found == told(f"On {share} % of the contact area", cells, 1.1 * hardness) == (share is not None)
+        )
+    assert not told("exceeds the hardness", 20, 0.9 * hardness)
+    for part in (0.4, 0.6):
+        assert told("times the reduced modulus", 1, part * modulus) == (part > 0.5)
+    for depth in (4.5, 5.5):
+        assert told("is larger than the side of the map, 5 m", depth=depth) == (depth > 5)
+
+
 def test_notes_are_ordered_by_rank_then_as_they_are_made_and_stand_once():
     made = [Note(Rank.USUAL, "d"), Note(Rank.LIMITED, "b"), Note(Rank.WRONG, "a"), Note(Rank.LIMITED, "c")]
     assert in_order([*made, *made]) == ("a", "b", "c", "d")

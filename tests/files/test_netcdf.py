@@ -115,6 +115,34 @@ def test_a_map_with_even_coordinates(tmp_path, how):
         rc.read(tmp_path / "a.nc", channel="depth")
 
 
+@pytest.mark.parametrize(
+    ("rows", "columns", "spacing"),
+    [
+        ([0, 2], slice(None), (4e-3, 0.5e-3)),
+        ([2, 1, 0], [3, 1], (2e-3, 1e-3)),
+        ([1, 0], [0, 3], (2e-3, 1.5e-3)),
+    ],
+)
+def test_coordinates_that_fall_and_only_two_of_them(tmp_path, rows, columns, spacing):
+    dataset().isel(lat=rows, lon=columns).to_netcdf(tmp_path / "a.nc", engine="h5netcdf")
+    surface = rc.read(tmp_path / "a.nc")
+    np.testing.assert_allclose(surface.heights, HEIGHTS[rows][:, columns] * 1e-6, rtol=1e-15)
+    np.testing.assert_allclose(surface.grid.spacing, spacing, rtol=1e-12)
+
+
+@pytest.mark.parametrize(("error", "even"), [(2.4e-5, True), (2.6e-5, False)])
+def test_coordinates_are_even_within_those_of_single_precision(tmp_path, error, even):
+    """A hundred-thousandth of the largest, 2.5 mm: the steps around one that is moved by an error differ by it."""
+    path = tmp_path / "a.nc"
+    moved = dataset().assign_coords(lon=("lon", [1.0, 1.5 + error, 2.0, 2.5], {"units": "mm"}))
+    moved.to_netcdf(path, engine="h5netcdf")
+    if even:
+        assert rc.read(path).grid.spacing == pytest.approx((2e-3, 0.5e-3), rel=1e-12)
+    else:
+        with pytest.raises(rc.ReadError, match="coordinates along lon are not even"):
+            rc.read(path)
+
+
 def test_packed_numbers_are_unpacked(tmp_path):
     packing = {"elevation_height": {"dtype": "i2", "scale_factor": 0.5, "add_offset": 3.0, "_FillValue": -9}}
     dataset().where(HEIGHTS != 4).to_netcdf(tmp_path / "a.nc", engine="h5netcdf", encoding=packing)

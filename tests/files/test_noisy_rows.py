@@ -58,3 +58,40 @@ def test_a_file_with_such_rows_is_warned_of(put, npy):
     heights[20:30] = RNG.uniform(-RANGE / 2, RANGE / 2, (10, 128))
     with pytest.warns(rc.SurfaceWarning, match="in 10 rows or columns .*as random numbers are"):
         rc.read(put("a.npy", npy(heights)), unit="um", size=1e-4)
+
+
+def with_rows(heights, rows, rougher):
+    """Return a map with rows whose mean steps are so many times those of a typical row."""
+    heights, rows = heights.copy(), np.atleast_2d(rows)
+    typical = np.median(np.abs(np.diff(heights, axis=1)).mean(axis=1))
+    own = np.abs(np.diff(rows, axis=1)).mean(axis=1, keepdims=True)
+    heights[20 : 20 + len(rows)] = rows * (rougher * typical / own)
+    return heights
+
+
+@pytest.mark.parametrize(("rougher", "found"), [(3.8, 0), (4.2, 2), (6.0, 2)])
+def test_only_rows_four_times_as_rough_as_the_others_are_damaged(rougher, found):
+    """Two rows of 96 change the median of all by a rank or two."""
+    rows = np.random.default_rng(6).uniform(-1, 1, (2, 128))
+    assert noisy_rows(with_rows(MAP, rows, rougher)) == found
+
+
+@pytest.mark.parametrize(("changes", "found"), [(47, 2), (46, 0), (80, 2), (81, 0)])
+def test_unrelated_neighbours_are_on_one_side_as_often_as_on_both_within_three_deviations(changes, found):
+    """Of 127 pairs 127 - 2 n more lie on one side than on both, if n change it; three deviations are 33.8 pairs."""
+    runs = changes + 1
+    lengths = np.zeros(runs, int)
+    for side in (0, 1):  # 64 points above and 64 below, so that the median lies between
+        lengths[side::2] = [len(part) for part in np.array_split(np.arange(64), len(lengths[side::2]))]
+    row = np.repeat((-1.0) ** np.arange(runs), lengths) * np.random.default_rng(7).uniform(1, 2, 128)
+    assert np.count_nonzero(np.diff(np.sign(row))) == changes
+    assert noisy_rows(with_rows(MAP, [row, row], 10)) == found
+
+
+@pytest.mark.parametrize(("missing", "found"), [(0, 2), (94, 2), (96, 0)])
+def test_rows_need_32_pairs_of_neighbours(missing, found):
+    """Of 128 points with 95 missing ones at an end 33 are left, and 32 pairs."""
+    heights = with_rows(MAP, np.random.default_rng(6).uniform(-1, 1, (2, 128)), 10)
+    heights[20:22, :missing] = np.nan
+    assert noisy_rows(heights) == found
+    assert noisy_rows(with_rows(MAP[:, :33], np.random.default_rng(6).uniform(-1, 1, (2, 33)), 10)) == 2
