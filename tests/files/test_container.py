@@ -10,6 +10,7 @@ import pytest
 from scipy.io import netcdf_file
 
 import roughcontact as rc
+from roughcontact.files.container import stated_in
 from roughcontact.files.read import channels
 
 HEIGHTS = np.random.default_rng(4).standard_normal((12, 20))
@@ -149,3 +150,36 @@ def test_without_the_package_that_reads_the_index_the_remedy_is_named(put, monke
     monkeypatch.setitem(sys.modules, "yaml", None)
     with pytest.raises(rc.ReadError, match=r"needs the package yaml.*pip install 'roughcontact\[formats\]'"):
         rc.read(path)
+
+
+@pytest.mark.parametrize(
+    ("stated", "name", "lengths"),
+    [
+        (
+            {
+                "name": "AFM",
+                "type": "contact-based",
+                "parameters": {"tip_radius": {"value": 20, "unit": "nm"}},
+            },
+            "AFM",
+            {"tip_radius": 20e-9},
+        ),
+        (
+            {
+                "type": "optical",
+                "parameters": {"resolution": {"value": 0.5, "unit": "um"}, "tip_radius": None},
+            },
+            "optical",
+            {"resolution": 0.5e-6},
+        ),
+        ({"name": "stylus", "parameters": None}, "stylus", {}),
+        (None, "", {}),
+    ],
+)
+def test_instruments_are_those_of_the_index(stated, name, lengths):
+    found = stated_in(container([PREPARED | {"instrument": stated}, UPLOADED], FILES))
+    assert [place[:2] for place in found] == [("part", "left"), ("part", "right")]
+    left, right = (place[2] for place in found)
+    assert (left.name, right) == (name, rc.Instrument(""))
+    known = {each: getattr(left, each) for each in ("tip_radius", "resolution")}
+    assert {each: length for each, length in known.items() if length} == pytest.approx(lengths, rel=1e-15)

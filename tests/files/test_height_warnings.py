@@ -165,3 +165,20 @@ def test_rows_of_random_numbers(heights, rows, words):
     """More than a fifth of 64 rows."""
     heights[20 : 20 + rows] = np.random.default_rng(5).uniform(-1e-6, 1e-6, (rows, 80))
     assert words in told(heights)
+
+
+def test_heights_larger_than_any_body_are_refused(put, npy):
+    heights = np.arange(12.0).reshape(3, 4) / 11
+    with pytest.warns(rc.SurfaceWarning) as caught:
+        rc.read(put("a.npy", npy(0.9e9 * heights)), unit="m", size=0.1)
+    assert "heights up to 9e+08 m are unusual" in str(caught[0].message)
+    with pytest.raises(rc.ReadError, match=r"it holds heights up to 1.1e\+09 m; pass unit="):
+        rc.read(put("a.npy", npy(-1.1e9 * heights)), unit="m", size=0.1)
+
+
+@pytest.mark.parametrize(("columns", "noisy"), [(35, True), (34, False), (33, False)])
+def test_noise_needs_32_pairs_of_neighbours_in_a_row(columns, noisy):
+    """A missing column takes two pairs; of an odd number of points one is the median, and has no side."""
+    heights = np.random.default_rng(2).standard_normal((40, columns)) * 1e-7
+    heights[:, 17] = np.nan
+    assert ("of the rows neighbouring heights are unrelated, as random numbers are" in told(heights)) == noisy
