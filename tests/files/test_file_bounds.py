@@ -14,6 +14,7 @@ import pytest
 
 import roughcontact as rc
 from files.written import FILES
+from instruments import sdf_binary, sdf_text, tiff
 from roughcontact.files import file_bounds as bounds
 from roughcontact.files.content import needed
 from roughcontact.files.file_bounds import BoundedStream, require_memory
@@ -65,6 +66,38 @@ def test_a_file_beyond_the_memory_is_not_read(tmp_path, free, name):
             rc.ReadError, match=r"needs (40|41\.6) GB of memory, and 8 GB are free; cut the map"
         ):
             function(tmp_path / name)
+
+
+def empty_hdf5():
+    """Return an HDF5 file that announces heights and holds none."""
+    h5py = pytest.importorskip("h5py")
+    stream = io.BytesIO()
+    with h5py.File(stream, "w") as file:
+        file.create_dataset("heights", (20_000, 20_000), "f4", chunks=(1000, 1000)).attrs["units"] = "um"
+    return stream.getvalue()
+
+
+@pytest.mark.usefixtures("small")
+@pytest.mark.parametrize(
+    ("name", "data"),
+    [
+        ("a.sdf", lambda: sdf_text(np.ones((3, 4)), 5, NumPoints=20_000, NumProfiles=20_000)),
+        ("a.sdf", lambda: sdf_binary(np.broadcast_to(1.0, (3, 4)), 5).replace(b"\4\0\3\0", b"\x20\x4e" * 2)),
+        ("a.tif", lambda: tiff(np.ones((3, 4), "u2"), t256=20_000, t257=20_000)),
+        ("a.nc", empty_hdf5),
+    ],
+)
+def test_points_beyond_the_memory_are_not_made(put, free, name, data):
+    """The header of a small file announces 20000^2."""
+    if name == "a.tif":
+        pytest.importorskip("tifffile")
+    path = put(name, data())
+    free(8e9)
+    need = bounds.BYTES_PER_POINT * 0.4
+    with pytest.raises(
+        rc.ReadError, match=rf"reading it needs {need:.3g} GB of memory, and 8 GB are free; cut"
+    ):
+        rc.read(path, unit="um", channel=0 if name == "a.nc" else None)
 
 
 @pytest.mark.usefixtures("small")

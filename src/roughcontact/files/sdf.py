@@ -50,7 +50,7 @@ def read_sdf(data: bytes) -> HeightMap:
             as_heights(heights),
             f"SDF {mark[0].decode()}",
             unit="m",
-            spacing=(steps[1], steps[0]) if shape[0] > 1 else (steps[0], steps[0]),
+            spacing=(steps[1], steps[0]),
             warnings=(*warnings, *remarks),
         )
     )
