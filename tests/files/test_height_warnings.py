@@ -182,3 +182,8 @@ def test_noise_needs_32_pairs_of_neighbours_in_a_row(columns, noisy):
     heights = np.random.default_rng(2).standard_normal((40, columns)) * 1e-7
     heights[:, 17] = np.nan
     assert ("of the rows neighbouring heights are unrelated, as random numbers are" in told(heights)) == noisy
+
+
+def test_a_single_point_beyond_all_heights(heights):
+    heights[30, 30] = 1e-4
+    assert "1 points lie more than 100 interquartile ranges" in told(heights)
