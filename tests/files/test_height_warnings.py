@@ -26,6 +26,7 @@ def test_a_rough_surface_raises_no_warning(heights):
     [
         (slice(50, None), "its last 14 of 64 rows all hold 0 m, as after an interrupted scan"),
         (slice(None, 5), "its first 5 of 64 rows all hold 0 m"),
+        (slice(None, 2), "its first 2 of 64 rows all hold 0 m"),
     ],
 )
 def test_a_scan_that_was_broken_off(heights, rows, words):
@@ -141,6 +142,11 @@ def test_a_number_that_is_repeated(heights, longest, second, found, order, cell)
     heights[40, 10 : 10 + second] = heights[40, 10]
     words = f"{longest} neighbouring points from cell {cell} hold {heights[20, 10]:g} m"
     assert (words in told(order(heights))) == found
+
+
+def test_a_number_that_is_repeated_from_the_first_cell_on(heights):
+    heights[0, :12] = heights[0, 0]
+    assert "12 neighbouring points from cell 0, 0 hold" in told(heights)
 
 
 def test_rows_stored_from_the_bottom_up_hold_one_run(heights):

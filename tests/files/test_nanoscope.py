@@ -53,6 +53,12 @@ def test_the_size_is_right(put, shape, size, aspect, scan, lines, ratio, names):
         np.testing.assert_allclose(channel.size, surface.grid.lengths, rtol=1e-12)
 
 
+@pytest.mark.parametrize("ratio", ["2", "2:0", "0:1", "none:1", "1:none", "-2:1"])
+def test_a_ratio_that_is_none_is_one(put, ratio):
+    data = nanoscope(counts(16, 32), size="2 2 ~m", aspect=ratio, scan_aspect=ratio)
+    np.testing.assert_allclose(rc.read(put("a.spm", data)).grid.lengths, (2e-6, 2e-6), rtol=1e-12)
+
+
 def test_images_of_four_bytes_a_point(put):
     z = counts(16, 32)
     data = nanoscope(z * 65536, size="2 2 ~m", aspect="2:1", scan_aspect="2:1", width=4)

@@ -151,7 +151,7 @@ def test_a_text_that_ends_within_its_last_number_is_warned_of(put):
         (sdf_binary(counts_for(5), 5, mark="bISO-3.0"), "does not begin with aISO-1.0"),
         (sdf_binary(counts_for(5), 5, flags=(1, 0)), "1 for Compression"),
         (sdf_binary(counts_for(5), 5, flags=(0, 2)), "2 for CheckType"),
-        (sdf_binary(counts_for(5), 5).replace(b"\x05\0", b"\x09\0", 1), "of type 9"),
+        (sdf_binary(counts_for(5), 5).replace(b"\x05\0", b"\x08\0", 1), "of type 8"),
         (sdf_binary(counts_for(5), 5, steps=(0.0, 1e-6, 1e-9)), "0 for Xscale"),
         (sdf_binary(counts_for(5), 5, steps=(1e-6, np.nan, 1e-9)), "nan for Yscale"),
         (sdf_binary(counts_for(5), 5, steps=(1e-6, 1e-6, -1e-9)), "-1e-09 for Zscale"),
