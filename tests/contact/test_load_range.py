@@ -147,6 +147,17 @@ def test_loads_are_even_in_stiffness_and_area_and_not_in_close_pairs():
     assert curve.fit().count >= 3
 
 
+@pytest.mark.parametrize(("count", "enough"), [(300, True), (1000, False)])
+def test_more_forces_than_steps_of_the_search_have_three_digits(count, enough):
+    """The widest steps are halved; once a hundredth is left between any two, three digits hold no more."""
+    found = rc.load_range(rough(32), 1e9, count=count)
+    steps = np.diff(np.log(found.forces))
+    assert steps.min() > 0
+    assert (len(found.forces) == count) == enough
+    assert [float(f"{force:.2e}") for force in found.forces] == found.forces.tolist()
+    assert enough or steps.max() < math.log(1.02)  # of two digits apart, the one between is taken
+
+
 def test_loads_of_punches_are_even_in_force():
     """Three pillars that keep area and stiffness until their mean pressure is half of the modulus."""
     heights = np.zeros((64, 48))

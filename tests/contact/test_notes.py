@@ -101,6 +101,7 @@ def test_limits_of_pressure_and_depth():
         assert (
             found == told(f"On {share} % of the contact area", cells, 1.1 * hardness) == (share is not None)
         )
+        assert told("the largest pressure is 1.1 times the hardness", cells, 1.1 * hardness) == found
     assert not told("exceeds the hardness", 20, 0.9 * hardness)
     for part in (0.4, 0.6):
         assert told("times the reduced modulus", 1, part * modulus) == (part > 0.5)
