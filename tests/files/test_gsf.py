@@ -38,6 +38,7 @@ def test_units_that_the_file_states(put, unit, factor):
     ("changes", "problem", "given"),
     [
         ({"drop": ("XReal",)}, "states no size", {"size": "18 um"}),
+        ({"drop": ("YReal",)}, "states no size", {"size": "18 um"}),
         ({"drop": ("XReal", "YReal")}, "states no size", {"size": "18 um"}),
         (
             {"drop": ("XYUnits",)},
@@ -93,9 +94,14 @@ def test_its_channel_is_listed(put):
         (lambda d: d + b"\0", "take 4609 bytes"),
         (lambda d: d.replace(b"XRes = 36", b"XRes = 26"), "take 4608 bytes where 32 x 26"),
         (lambda d: d.replace(b"XRes = 36", b"XRes = -6"), "states '-6' for XRes"),
+        (lambda d: d.replace(b"XRes = 36", b"XRes = 9999999999"), "take 4608 bytes where 32 x 9999999999"),
+        (lambda d: d.replace(b"XRes = 36", b"XRes = 10000000000"), "states '10000000000' for XRes"),
+        (lambda d: d.replace(b"XRes = 36", b"XRes = 0"), "states '0' for XRes"),
+        (lambda d: d.replace(b"XRes = 36", "XRes = ٣٦".encode()), "states '٣٦' for XRes"),
         (lambda d: d.replace(b"XRes", b"xRes"), "states '' for XRes"),
         (lambda d: d.replace(b"YReal = 1.6", b"YReal = 1,6"), "for YReal"),
         (lambda d: d.replace(b"YReal = 1.6", b"YReal = -.6"), "for YReal"),
+        (lambda d: d.replace(b"YReal = 1.6", b"YReal = 0.0"), "for YReal"),
         (lambda d: d.replace(b"XYUnits = m", b"ZUnits = mm"), "states twice: 'ZUnits'"),
         (lambda d: d.replace(b"YRes =", b"YRes  "), "holds a line without ="),
         (lambda d: d.replace(b"\0", b" "), r"no zero byte|where"),

@@ -3,6 +3,7 @@
 import pytest
 
 from roughcontact.files.length_units import is_length, length_factor, parse_length, stated_length
+from roughcontact.units import registry
 
 
 @pytest.mark.parametrize(
@@ -41,6 +42,38 @@ def test_lengths(text, metres):
 def test_what_is_no_length(text):
     with pytest.raises(ValueError, match=r"length|unit"):
         parse_length(text)
+
+
+@pytest.mark.parametrize("name", ["km", "m", "dm", "cm", "mm", "um", "µm", "nm", "Å", "pm", "in"])
+def test_symbols_are_those_of_the_library_of_units(name):
+    assert is_length(name)
+    assert length_factor(name) == pytest.approx(registry().Quantity(1.0, name).to("m").magnitude, rel=1e-14)
+
+
+@pytest.mark.parametrize("prefix", ["", "kilo", "centi", "milli", "micro", "nano", "pico"])
+@pytest.mark.parametrize("word", ["meter", "metre"])
+@pytest.mark.parametrize("end", ["", "s"])
+def test_words_are_those_of_the_library_of_units(prefix, word, end):
+    wanted = registry().Quantity(1.0, prefix + word).to("m").magnitude
+    assert stated_length(f"1 {prefix}{word}{end}") == pytest.approx(wanted, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("name", "word"),
+    [
+        *(("micron", "micron"), ("mikrometer", "um"), ("angstroem", "angstrom"), ("Ångström", "angstrom")),
+        *(
+            ("inch", "inch"),
+            ("mil", "thou"),
+            ("thou", "thou"),
+            ("microin", "microinch"),
+            ("microinches", "microinch"),
+        ),
+    ],
+)
+def test_other_words(name, word):
+    wanted = registry().Quantity(1.0, word).to("m").magnitude
+    assert stated_length(f"1 {name}") == pytest.approx(wanted, rel=1e-14)
 
 
 def test_units():

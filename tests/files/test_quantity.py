@@ -4,13 +4,38 @@ from types import ModuleType
 import pytest
 
 from roughcontact import units
-from roughcontact.files.quantity import AREA, ENERGY_PER_AREA, FORCE, LENGTH, PRESSURE, parse, parse_number
+from roughcontact.files.quantity import (
+    AREA,
+    ENERGY_PER_AREA,
+    FORCE,
+    LENGTH,
+    PRESSURE,
+    has_unit,
+    parse,
+    parse_number,
+    unit_in,
+)
 
 
 def test_a_quantity_becomes_its_number_in_si():
     assert parse("5 um", LENGTH) == pytest.approx(5e-6, rel=1e-15)
     assert parse("5e-6", LENGTH) == 5e-6
     assert parse_number(" 0.3 ", "0.5") == 0.3
+
+
+def test_zero_and_what_is_far_beyond_any_body():
+    assert parse("0 mN", FORCE) == 0.0
+    assert parse("-5 nN", FORCE) == -5e-9
+    for text in ("9e29", "-9e29", "1.1e-30", "-1.1e-30"):
+        assert parse(f"{text} N", FORCE) == float(text)
+    for text in ("1.1e30", "-1.1e30", "9e-31", "-9e-31"):
+        with pytest.raises(ValueError, match="is out of range: check its exponent and unit"):
+            parse(f"{text} N", FORCE)
+
+
+def test_the_unit_is_what_follows_the_number():
+    assert [unit_in(text) for text in (" 5 um ", "5", "-.5e-3mm^2", "um")] == ["um", "", "mm^2", "um"]
+    assert [has_unit(text) for text in ("5 um", "5", "um")] == [True, False, True]
 
 
 @pytest.mark.parametrize("kind", [FORCE, LENGTH, PRESSURE], ids=lambda kind: kind.unit)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 
 import numpy as np
 
@@ -68,9 +69,9 @@ def _fields(header: bytes) -> dict[str, str]:
 
 def _count(fields: dict[str, str], name: str) -> int:
     text = fields.get(name, "")
-    if not (text.isascii() and text.isdigit() and 0 < int(text[:12]) < 2**31):
+    if re.fullmatch("[1-9][0-9]{0,9}", text) is None:
         raise ContentError(f"its header states {text!r} for {name}", _AGAIN)
-    return int(text[:12])
+    return int(text)
 
 
 def _side(fields: dict[str, str], name: str) -> float | None:
