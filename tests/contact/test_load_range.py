@@ -7,8 +7,8 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.contact.loads.load_ends import NEAR
-from roughcontact.contact.loads.load_range import FORCES_BELOW
-from roughcontact.contact.loads.load_search import SurfaceKind
+from roughcontact.contact.loads.load_range import FORCES_BELOW, _even
+from roughcontact.contact.loads.load_search import LoadSearch, SearchedLoad, SurfaceKind
 from roughcontact.contact.stiffness import cell_stiffness, full_contact_stiffness
 from roughcontact.kernels import loader
 
@@ -145,6 +145,34 @@ def test_loads_are_even_in_stiffness_and_area_and_not_in_close_pairs():
     steps = np.diff(np.log(curve.force[inside]))
     assert steps.min() > steps.mean() / 4
     assert curve.fit().count >= 3
+
+
+@pytest.mark.parametrize(
+    ("stiffness", "area", "force"),
+    [
+        # In x = log F of 0 to 4, k rises over its range at x < 2 only: the sum of both is 3x/4 there, and x/4 + 1 above.
+        (
+            lambda f: np.minimum(f, 100) ** 0.5,
+            lambda f: f ** (2 / 3),
+            lambda w: np.where(w < 1.5, 4 * w / 3, 4 * w - 4),
+        ),
+        (lambda f: f**0.5, lambda f: 0 * f + 1, lambda w: 2 * w),
+        (lambda f: 0 * f + 1, lambda f: f, lambda w: 2 * w),
+        (
+            lambda f: 0 * f + 1,
+            lambda f: 1 + 1e-8 * np.sin(f),
+            lambda w: 2 * w,
+        ),  # within the tolerance of a load
+    ],
+)
+def test_forces_are_even_in_what_changes(stiffness, area, force):
+    loads = 10.0 ** np.arange(-1, 5.1, 0.25)
+    columns = zip(loads, stiffness(loads), area(loads), strict=True)
+    search = LoadSearch(
+        None, SurfaceKind.FLAT, tuple(SearchedLoad(*each, *[0.0] * 4, "") for each in columns)
+    )
+    found = np.log10(_even(search, 1.0, 1e4, 13))
+    np.testing.assert_allclose(found, force(np.linspace(0, 2, 13)), atol=1e-12)
 
 
 @pytest.mark.parametrize(("count", "enough"), [(300, True), (1000, False)])
