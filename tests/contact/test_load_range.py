@@ -150,7 +150,7 @@ def test_loads_are_even_in_stiffness_and_area_and_not_in_close_pairs():
 @pytest.mark.parametrize(
     ("stiffness", "area", "force"),
     [
-        # In x = log F of 0 to 4, k rises over its range at x < 2 only: the sum of both is 3x/4 there, and x/4 + 1 above.
+        # In x = log F of 0 to 4, k rises over its range at x < 2 only: both are 3x/4 there, and x/4 + 1 above.
         (
             lambda f: np.minimum(f, 100) ** 0.5,
             lambda f: f ** (2 / 3),

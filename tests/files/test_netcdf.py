@@ -158,6 +158,23 @@ def test_uneven_coordinates_are_refused(tmp_path):
         rc.read(tmp_path / "a.nc")
 
 
+@pytest.mark.parametrize(
+    "axis",
+    [("lon", [1.0, 1.5, 2.0, 2.5], {"units": "degrees_east"}), (("lat", "lon"), HEIGHTS, {"units": "mm"})],
+)
+def test_coordinates_that_are_no_places_along_an_axis_state_no_size(tmp_path, axis):
+    lat = ("lat", [10.0, 12.0, 14.0], {"units": "mm"})
+    height = {"height": (("lat", "lon"), HEIGHTS, {"units": "um"})}
+    xarray.Dataset(height, {"lat": lat}).to_netcdf(tmp_path / "a.nc", engine="scipy")
+    with netcdf_file(tmp_path / "a.nc", "a") as file:
+        of, values, attributes = axis
+        lon = file.createVariable("lon", "f8", (of,) if isinstance(of, str) else of)
+        lon[:] = values
+        lon.units = attributes["units"]
+    with pytest.raises(rc.ReadError, match="it states no size; pass size="):
+        rc.read(tmp_path / "a.nc", channel="height")
+
+
 def test_infinite_coordinates_are_refused_without_noise(tmp_path):
     places = np.array([0.5, np.inf, np.inf])
     data = xarray.Dataset(

@@ -46,10 +46,24 @@ def test_esri_cells_of_two_sides(put):
     surface = rc.read(put("a.asc", ESRI + "dx 0.25\ndy 0.5\n" + table(separator=" ")), unit="um")
     assert surface.grid.spacing == (5e-7, 2.5e-7)
 
+    surface = rc.read(put("a.asc", ESRI + "cellsize 0.25 0.5\n" + table(separator=" ")), unit="um")
+    assert surface.grid.spacing == (5e-7, 2.5e-7)
 
-def test_a_negative_cell_is_told(put):
-    with pytest.warns(SurfaceWarning, match=r"its cells are 0.5 x -0.5: the sign is left out"):
-        is_right(rc.read(put("a.asc", ESRI + "dx 0.5\ndy -0.5\n" + table(separator=" ")), unit="um"))
+
+def test_esri_with_one_side_or_one_row(put):
+    with pytest.raises(rc.ReadError, match="it states no size; pass size="):
+        rc.read(put("a.asc", ESRI + "dx 0.25\n" + table(separator=" ")), unit="um")
+    row = f"ncols {NX}\nnrows 1\ncellsize 0.5\n" + table(HILLS[:1], separator=" ")
+    with pytest.raises(rc.ReadError, match="it holds 1 x 36 heights, which is not a map"):
+        rc.read(put("a.asc", row), unit="um")
+
+
+@pytest.mark.parametrize("sides", [(0.25, -0.5), (-0.25, 0.5), (-0.25, -0.5)])
+def test_a_negative_cell_is_told(put, sides):
+    dx, dy = sides
+    with pytest.warns(SurfaceWarning, match=rf"its cells are {dx} x {dy}: the sign is left out"):
+        surface = rc.read(put("a.asc", ESRI + f"dx {dx}\ndy {dy}\n" + table(separator=" ")), unit="um")
+    assert surface.grid.spacing == (5e-7, 2.5e-7)
 
 
 @pytest.mark.parametrize(
@@ -85,6 +99,21 @@ def test_damaged_grids_are_refused(put, text, message):
 def test_surfer_rows_begin_with_the_smallest_y(put, name, hole):
     rows = table(HOLED[::-1], " ", hole=hole).replace("\n", "\n\n")
     is_right(rc.read(put(name, SURFER + rows), unit="um"), HOLED)
+
+
+def test_surfer_cells_of_two_sides(put):
+    text = SURFER.replace("3 20.5", "38 3") + table(HILLS[::-1], separator=" ")
+    surface = rc.read(put("a.grd", text), unit="um")
+    np.testing.assert_allclose(surface.grid.spacing, (5e-7, 1e-6), rtol=1e-14)
+
+
+@pytest.mark.parametrize(("beyond", "told"), [(1e-7, 0), (1e-5, 2)])
+def test_heights_that_its_header_rounds_are_within_their_range(put, recwarn, beyond, told):
+    """The lowest and the highest of the heights are printed as 0 and 1 to six digits."""
+    values = np.interp(HILLS, (HILLS.min(), HILLS.max()), (-beyond, 1 + beyond))
+    rows = "\n".join(" ".join(map(repr, row)) for row in values.tolist())
+    rc.read(put("a.grd", SURFER.replace(f"{HILLS.min()} {HILLS.max()}", "0 1") + rows), unit="um")
+    assert [str(warning.message).split()[1] for warning in recwarn] == [f"{told}"] * bool(told)
 
 
 def test_heights_outside_the_stated_range_are_told(put):
@@ -228,6 +257,23 @@ def wyko(flag):
 @pytest.mark.parametrize(("flag", "nanometres"), [(0, 250.0), (1, 1.0)])
 def test_wyko(put, flag, nanometres):
     is_right(rc.read(put("a.asc", wyko(flag))), HOLED, unit=nanometres * 1e-9)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "spacing"),
+    [
+        ("Aspect\t7\t4\t1.0\n", "Aspect\t7\t4\t0.5\n", (5e-7, 2.5e-7)),
+        ("Aspect\t7\t4\t1.0\n", "", (5e-7, 5e-7)),
+        ("0.0005", "-0.00025", (2.5e-7, 2.5e-7)),
+    ],
+)
+def test_wyko_cells(put, old, new, spacing):
+    surface = rc.read(put("a.asc", wyko(0).replace(old, new)))
+    np.testing.assert_allclose(surface.grid.spacing, spacing, rtol=1e-14)
+
+
+def test_wyko_without_mult_is_in_waves(put):
+    is_right(rc.read(put("a.asc", wyko(0).replace("Mult\t6\t2\t2\n", ""))), HOLED, unit=500e-9)
 
 
 @pytest.mark.parametrize(
