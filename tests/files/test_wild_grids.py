@@ -247,6 +247,28 @@ def test_profilm(put, decimal):
     is_right(rc.read(path, size=("16 um", "18 um")), HOLED)
 
 
+@pytest.mark.parametrize(
+    ("columns", "rows", "values", "message"),
+    [
+        (NX, 1, HILLS[:1], "it holds 1 x 36 heights, which is not a map"),
+        (1, NY, HILLS[:, :1], "it holds 32 x 1 heights, which is not a map"),
+        (0, NY, HILLS, "it states 32 rows of 0 heights"),
+        (NX, 0, HILLS, "it states 0 rows of 36 heights"),
+        ("inf", NY, HILLS, "it states 32 rows of inf heights"),
+        (NX, "many", HILLS, "it states nan rows of 36 heights"),
+        (NX, NY, HILLS[:-1], "and states 32 rows of 36: it is cut short"),
+        (NX, "", HILLS, "its header is damaged"),
+        (NX, NY, HILLS[:0], "its header is damaged"),
+    ],
+)
+def test_profilm_that_is_no_map_or_damaged(put, columns, rows, values, message):
+    head = f"numCols\tnumRows\tpixelSize (um)\n{columns}\t{rows}\t0.5\nZ-data (um)\n"
+    if rows == "":
+        head = head.replace("\t\t", "\t")
+    with pytest.raises(rc.ReadError, match=message):
+        rc.read(put("a.txt", head + (table(values, "\t") if len(values) else "")))
+
+
 def wyko(flag):
     """Return a text of lines along X Size, heights in waves of 500 nm over 2 or, by the second flag, in nm."""
     return (
