@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 import roughcontact as rc
+from roughcontact.contact.compare import Comparison
 from roughcontact.theory.law import LoadingLaw
 
 MODULUS, RADIUS = 2.0, 1.0
@@ -52,6 +53,21 @@ def test_a_theory_is_silent_outside_its_domain(curve):
     record = comparison.to_record()
     assert record["predicted"]["depth"][2:] == [None, None]
     json.dumps(record, allow_nan=False)
+
+
+def test_local_exponents_are_of_resolved_positive_loads():
+    """The lightest third grows as F, the heaviest holds zeros and a NaN; between them the stiffness is F^(1/3)."""
+    force = np.geomspace(1, 1e6, 60)
+    resolved = force >= 1e2
+    stiffness = np.where(resolved, np.cbrt(force), force)
+    stiffness[-3:] = 0.0, -1.0, np.nan
+    found = Comparison(
+        "square root", "nobody", force, resolved, {"stiffness": stiffness}, {"stiffness": np.sqrt(force)}
+    ).local_exponents("stiffness")
+    assert len(found) > 2
+    for computed, predicted in found:
+        assert computed.exponent == pytest.approx(1 / 3, rel=1e-12)
+        assert predicted.exponent == pytest.approx(1 / 2, rel=1e-12)
 
 
 def test_deviation_is_none_without_resolved_loads(curve):

@@ -288,6 +288,8 @@ def test_pullen_and_williamson_and_the_bearing_curve():
     # Displacements are of the order of the hardness times the side, over the modulus: 1e-9.
     assert raised.flow.rise == pytest.approx(rise, abs=1e-7)
     assert plain.depth - raised.depth == pytest.approx(raised.flow.rise, rel=1e-9)
+    assert raised.problem.first_touch == -raised.flow.rise  # before the load, the bodies touch at depth zero
+    assert plain.problem.first_touch == 0
     after = raised.flattened.problem.surface.heights
     assert after.mean() == pytest.approx(surface.heights.mean(), abs=1e-14)
     np.testing.assert_allclose(after, np.minimum(surface.heights, plate) + rise, rtol=0, atol=1e-7)

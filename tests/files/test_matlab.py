@@ -62,13 +62,33 @@ def test_arrays_of_every_kind_pass(tmp_path):
         for value in (
             *(
                 np.ones((5, 7), kind)
-                for kind in ("i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8", "f4", "f8", "c16")
+                for kind in ("i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8", "f4", "f8", "c8", "c16")
             ),
             *("a text", {"field": Z}, np.array([["a", Z]], dtype=object), 3.0, np.zeros((0, 3)), Z > 0),
             *(np.ones((2, 3, 4)), np.float64(2.5)),
         ):
             savemat(tmp_path / "a.mat", {"value": value, "Z": Z}, do_compression=compressed)
             require_whole((tmp_path / "a.mat").read_bytes())
+
+
+@pytest.mark.parametrize(("kind", "numbers"), [(5, False), (6, True), (10, True), (15, True), (16, False)])
+def test_arrays_of_numbers_are_checked(kind, numbers):
+    """Classes 6 to 15; sparse arrays (5) and functions (16) have other elements."""
+    data = file_of(matrix(Z, (36, 36), kind=kind))
+    if numbers:
+        with pytest.raises(ContentError, match="9216 bytes for an array of 36 x 36 points"):
+            require_whole(data)
+    else:
+        require_whole(data)
+
+
+@pytest.mark.parametrize("stored", [1, 2, 3, 4, 5, 6, 7, 9, 12, 13])
+def test_each_stored_type_has_its_size(stored):
+    """The 9216 bytes of 32 x 36 numbers of 8 bytes are 9216 of one byte, 4608 of two, or 2304 of four."""
+    size = {1: 1, 2: 1, 3: 2, 4: 2, 5: 4, 6: 4, 7: 4}.get(stored, 8)
+    require_whole(file_of(matrix(Z, (32, 36 * 8 // size), stored=stored)))
+    with pytest.raises(ContentError, match="9216 bytes for an array of"):
+        require_whole(file_of(matrix(Z, (32, 36 * 8 // size + 1), stored=stored)))
 
 
 @pytest.mark.parametrize(

@@ -16,8 +16,8 @@ _HEADER, _TAG = 128, 8  # bytes
 # The version, 1.0, and the order of bytes, after an arbitrary text.
 _ORDERS = {b"\0\1IM": "<", b"\1\0MI": ">"}
 _MATRIX, _COMPRESSED = 14, 15
-# Size of a number in bytes by the class of its array, and by the type in which it is stored.
-_CLASSES = {6: 8, 7: 4, 8: 1, 9: 1, 10: 2, 11: 2, 12: 4, 13: 4, 14: 8, 15: 8}
+_NUMBERS = range(6, 16)  # classes of arrays of numbers
+# Size of a number in bytes by the type in which it is stored.
 _STORED = {1: 1, 2: 1, 3: 2, 4: 2, 5: 4, 6: 4, 7: 4, 9: 8, 12: 8, 13: 8}
 _COMPLEX = 0x0800
 _LOOK = 1 << 16  # bytes that hold flags, dimensions and name
@@ -66,7 +66,7 @@ def _require_numbers(body: bytes, order: str, size: int) -> None:
     """Compare the dimensions of an array of numbers with the bytes that follow them; `body` may be its beginning."""
     (flags,) = struct.unpack_from(order + "I", body, _TAG)
     _, bytes_of_shape = struct.unpack_from(order + "2I", body, 16)
-    if flags & 0xFF not in _CLASSES:
+    if flags & 0xFF not in _NUMBERS:
         return
     shape = struct.unpack_from(f"{order}{bytes_of_shape // 4}i", body, 16 + _TAG)
     if min(shape, default=0) < 0:
