@@ -107,6 +107,13 @@ def test_unit_and_size_are_asked_for(put):
         assert_read(path, values)
 
 
+@pytest.mark.parametrize("tags", [(), ((282, 3, [300]),)])
+def test_the_resolution_of_a_print_is_no_size(put, tags):
+    with pytest.raises(rc.ReadError) as refused:
+        rc.read(put("a.tif", tiff(numbers("u2"), tags=tags)), unit="nm")
+    assert ("(a resolution, which is that of a print)" in str(refused.value)) == bool(tags)
+
+
 def test_missing_points(put):
     values = numbers("f4")
     values[3, 4:7] = np.nan

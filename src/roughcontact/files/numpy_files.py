@@ -234,7 +234,7 @@ def _history(arrays: Mapping[str, npt.NDArray[Any]]) -> tuple[str, ...]:
     value = arrays.get("history", np.array([], dtype="U1"))
     if value.dtype.kind != "U":
         raise ContentError(f"its key 'history' is of type {value.dtype}", "save lines of text")
-    return tuple(str(line) for line in value.reshape(-1))
+    return tuple(map(str, value.flat))
 
 
 def _spacing(arrays: Mapping[str, npt.NDArray[Any]], shape: tuple[int, ...]) -> tuple[float, ...] | None:
