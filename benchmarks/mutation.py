@@ -6,8 +6,8 @@
 
 Mutants of the rooms are drawn at random, in proportion to their places: a comparison or an operator becomes another
 one, a condition its opposite, a number its neighbour, a returned value None, a call by itself nothing. Each is tried
-with the tests of its room that run its line (found once with coverage, ROOM.coverage in the store), then with all of
-their files, until one fails. The store is a line of JSON a mutant: a run that was stopped goes on where it was.
+with the tests of its room that run its line (found once with coverage, ROOM.coverage in the store), until one fails.
+The store is a line of JSON a mutant: a run that was stopped goes on where it was.
 Survivors that cannot change an answer are listed with the reason in ``benchmarks/mutation-equivalent.toml``; they leave
 the score.
 """
@@ -178,13 +178,13 @@ class Bench:
         shutil.rmtree(self.home, ignore_errors=True)
         shutil.copytree(PACKAGE, self.home / "roughcontact", ignore=shutil.ignore_patterns("__pycache__"))
 
-    def tried(self, mutant: Mutant, tests: list[str]) -> str:
-        """Return whether a mutant was found by some tests, "found", "hung" or "survived"."""
+    def tried(self, mutant: Mutant, tests: list[str], limit: int) -> str:
+        """Return whether tests found a mutant within some seconds: "found", "hung" or "survived"."""
         path = self.home / "roughcontact" / mutant.file
         whole = path.read_text(encoding="utf-8")
         path.write_text(mutant.applied(whole), encoding="utf-8")
         try:
-            done = self.pytest("-x", *tests, limit=LIMIT)
+            done = self.pytest("-x", *tests, limit=limit)
             if done.returncode > 2:  # below zero it crashed
                 raise RuntimeError(done.stdout.decode()[-2000:])
             return {0: "survived", -signal.SIGXCPU: "hung"}.get(done.returncode, "found")
@@ -225,13 +225,12 @@ class Bench:
         return data
 
 
-def tests_of(mutant: Mutant, home: Path, covered: CoverageData) -> tuple[list[str], list[str]]:
-    """Return the tests that run the line of a mutant, and their files; all of its room where it runs on import."""
+def tests_of(mutant: Mutant, home: Path, covered: CoverageData) -> list[str]:
+    """Return the tests that run the line of a mutant; all of its room where it runs on import."""
     lines = covered.contexts_by_lineno(str(home / "roughcontact" / mutant.file))
     line = max((line for line in lines if line <= mutant.line), default=0)  # where its statement begins
-    tests = sorted({test.partition("|")[0].partition("[")[0] for test in lines.get(line, []) if test})
-    files = sorted({test.partition("::")[0] for test in tests})
-    return (tests, files) if tests else ([f"tests/{mutant.room}"], [])
+    tests = {test.partition("|")[0].partition("[")[0] for test in lines.get(line, []) if test}
+    return sorted(tests) or [f"tests/{mutant.room}"]
 
 
 def read(store: Path) -> dict[str, dict[str, object]]:
@@ -289,11 +288,13 @@ def main() -> None:
             continue
         if mutant.room not in covered and not chosen.whole:
             covered[mutant.room] = bench.covered(chosen.store, mutant.room)
-        start, result = time.monotonic(), "survived"
-        whole = ["tests", "reproduction/tests"], []
-        for tests in whole if chosen.whole else tests_of(mutant, bench.home, covered[mutant.room]):
-            if tests and result == "survived":
-                result = bench.tried(mutant, tests)
+        start = time.monotonic()
+        if chosen.whole:
+            result = bench.tried(
+                mutant, ["-n", "auto", "tests", "reproduction/tests"], resource.RLIM_INFINITY
+            )
+        else:
+            result = bench.tried(mutant, tests_of(mutant, bench.home, covered[mutant.room]), LIMIT)
         seconds = round(time.monotonic() - start, 1)
         row = {"name": mutant.name, **asdict(mutant), "result": result, "seconds": seconds}
         with store.open("a", encoding="utf-8") as file:
