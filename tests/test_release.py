@@ -5,6 +5,8 @@ import re
 import tomllib
 from pathlib import Path
 
+import pytest
+
 import roughcontact as rc
 from roughcontact.cli.added_commands import PACKAGES
 
@@ -26,6 +28,15 @@ def test_the_version_is_one():
         THESIS["project"]["version"],
     ]
     assert written == [rc.__version__] * 4
+
+
+def test_every_step_of_the_workflow_is_a_command_or_an_action():
+    """A colon and a space in a command that is not quoted would make the whole file unreadable."""
+    jobs = pytest.importorskip("yaml").safe_load(WORKFLOW)["jobs"]
+    assert {"tests", "lowest", "coverage", "docs", "package"} <= jobs.keys()
+    for step in (step for job in jobs.values() for step in job["steps"]):
+        [kind] = {"run", "uses"} & step.keys()
+        assert isinstance(step[kind], str), step
 
 
 def test_the_package_of_the_figures_belongs_to_this_version():
