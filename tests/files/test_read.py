@@ -172,3 +172,17 @@ def test_reading_needs_no_heavy_library():
         "assert not {'SurfaceTopography', 'xarray', 'matplotlib', 'pint', 'h5py'} & set(sys.modules)"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
+
+
+@pytest.mark.parametrize("side", [1e-310, 1e-120, 1e120])
+def test_cells_of_a_size_that_cannot_be_are_those_of_the_file(tmp_path, side):
+    """The file is named, and the remedy reads it."""
+    file = tmp_path / "part.gsf"
+    sides = f"XReal = {4 * side}\nYReal = 4e-6\nZUnits = m\nXYUnits = m\n"
+    header = f"Gwyddion Simple Field 1.0\nXRes = 4\nYRes = 4\n{sides}".encode()
+    numbers = 1e-7 * np.arange(16, dtype="<f4")
+    file.write_bytes(header + bytes(4 - len(header) % 4) + numbers.tobytes())
+    with pytest.raises(rc.ReadError, match=r"^part\.gsf: it states cells of .*; pass size="):
+        rc.read(file)
+    with pytest.warns(SurfaceWarning, match="as given, instead of the file's"):
+        assert rc.read(file, size=("4 um", "4 um")).grid.spacing == (1e-6, 1e-6)

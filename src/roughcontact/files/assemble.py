@@ -54,10 +54,13 @@ def assemble(
     spacing, size_note = _spacing(found, factor, size)
     remarks = (*unit_note, *size_note)
     contradictions = tuple(remark.text for remark in remarks if remark.contradicts)
-    if not all(np.isfinite(step) and step > 0 for step in spacing):
+    try:
+        grid = Grid(found.heights.shape, spacing, found.periodic if periodic is None else periodic)
+    except InputError as error:
+        if error.place != "spacing":
+            raise
         cells = " x ".join(f"{step:g} m" for step in spacing)
-        raise ContentError(f"it states cells of {cells}", f"pass {_size_hint(found)}")
-    grid = Grid(found.heights.shape, spacing, found.periodic if periodic is None else periodic)
+        raise ContentError(f"it states cells of {cells}", f"pass {_size_hint(found)}") from error
     claimed = any(found.periodic) if isinstance(found.periodic, tuple) else found.periodic
     periodic_note = (
         ("read as free, though the file states that it is periodic",)
