@@ -21,14 +21,17 @@ import warnings
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "tests"))
-KINDS = ".gsf,.gwy,.sdf,.tmd,.tif,.sur,.x3p,.npy,.npz,.nc,.txt,.csv,.xyz,.grd,.zip,.001,.mat,.h5"
+KINDS = ".gsf,.gwy,.sdf,.tmd,.tiff,.sur,.x3p,.npy,.npz,.nc,.txt,.csv,.xyz,.grd,.zip,.001,.mat,.h5"
 
 
 def seeds(kind: str) -> list[bytes]:
-    """Return the small files of a format that the tests write."""
+    """Return the small files of a format that the tests write; without one to change nothing would be reached."""
     from files.written import FILES
 
-    return [file.data for file in FILES.values() if Path(file.name).suffix == kind]
+    found = [file.data for file in FILES.values() if Path(file.name).suffix == kind]
+    if not found:
+        raise SystemExit(f"the tests write no file {kind}")
+    return found
 
 
 def fuzz(kind: str, home: Path, seconds: int) -> None:
