@@ -35,6 +35,7 @@ QUESTIONS = {
     "tamaas": "coming-from/tamaas",
     "aspher": "coming-from/aspher",
     "benchmark": "evidence/benchmark-suite",
+    "how good are the tests": "evidence/tests",
     "contact.engineering": "coming-from/contactmechanics",
     "tip radius": "how-to/afm",
     "pint": "how-to/units",

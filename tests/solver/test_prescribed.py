@@ -1,5 +1,6 @@
 """Pressure under a prescribed displacement: by a factorisation, or by corrections that begin from nothing."""
 
+import tracemalloc
 from fractions import Fraction
 
 import numpy as np
@@ -266,3 +267,18 @@ def test_what_a_factorisation_says_of_itself_hangs_on_no_unit(step, modulus):
     assert 10 < len(pressed.cells) < len(cells)
     assert pressed.error < 1e-13
     assert rc.prescribed_displacement(few, 1.0, operator=body).residual < 1e-13
+
+
+def test_the_factor_takes_the_place_of_the_matrix():
+    """A copy would be a second one of all pairs of cells."""
+    body = rc.half_space(rc.Grid((24, 25), 1.0), 1.0)
+    cells = np.arange(600)
+    body.as_matrix(cells)  # the table is made once
+    tracemalloc.start()
+    try:
+        solve_cells(body, cells, np.ones(600))
+        _, peak = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    matrix = 8 * 600**2
+    assert matrix < peak < 1.5 * matrix
