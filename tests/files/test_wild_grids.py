@@ -80,7 +80,7 @@ def test_a_negative_cell_is_told(put, sides):
             "it does not state the number of nrows; write ncols and nrows",
         ),
         (ESRI + table(separator=" "), "it states no size; pass size="),
-        ("DSAA\n1 2\n", "its header is damaged"),
+        *((f"DSAA\n{start}", "its header is damaged") for start in ("", "36", "1 2\n")),
         (f"DSAA\n{NX} {NY}\n3 20.5\n", "its header is damaged"),
         (SURFER.replace("36", "36.5", 1), "its header is damaged"),
         (SURFER.replace("32", "32.5", 1), "its header is damaged"),

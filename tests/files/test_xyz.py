@@ -75,3 +75,19 @@ def test_what_is_no_grid_is_refused(put, content, message):
 def test_a_list_without_units_asks_for_one(put):
     with pytest.raises(rc.ReadError, match=r"no unit of its heights; pass unit="):
         rc.read(put("a.xyz", points()))
+
+
+@pytest.mark.parametrize("by_columns", [False, True])
+@pytest.mark.parametrize("left", [29, 35])
+def test_a_scan_that_ends_within_a_line_may_be_cut_short(put, by_columns, left):
+    """Row by row or column by column; in another order a missing point is one that was not measured."""
+    scan = np.arange(HEIGHTS.size).reshape(HEIGHTS.shape)
+    order = (scan.T if by_columns else scan).ravel()[:left]
+    file = put("a.xyz", points(keep=order))
+    if left == HEIGHTS.size:
+        rc.read(file, unit="um")
+    else:
+        whole = 30 if by_columns else 35  # columns that were not begun are no part of it
+        with pytest.warns(rc.SurfaceWarning, match=f"it ends after 29 of {whole} points, within a line"):
+            rc.read(file, unit="um")
+    rc.read(put("b.xyz", points(keep=np.r_[order[3:29], order[:2]])), unit="um")

@@ -82,7 +82,8 @@ def test_a_folder_and_a_list_of_files(tmp_path):
     for name, surface in PLACES.items():
         rc.write(surface, tmp_path / f"{name}.npz")
     (tmp_path / "notes.docx").write_text("hello")
-    (tmp_path / ".hidden").write_text("")
+    (tmp_path / ".hidden.npz").write_text("")
+    (tmp_path / "older.npz").mkdir()
     folder = rc.read_measurements(tmp_path)
     assert [one.name for one in folder] == [f"{name}.npz" for name in PLACES]
     assert any("notes.docx" in note for note in folder.combined_spectrum().notes)

@@ -20,15 +20,15 @@ _ROUNDING = 1e-6  # relative to the range: its printed digits
 def read_surfer(text: str) -> HeightMap:
     """Return the heights of a grid, largest y first; x and y are in the unit of its heights, which is not stated."""
     fields = text.split()
-    nx, ny, *ends = (number_of(field.replace(",", ".")) for field in fields[1:_HEAD])
-    if len(ends) < 6 or not (2 <= nx <= 1e9 and 2 <= ny <= 1e9) or nx != int(nx) or ny != int(ny):
+    head = [number_of(field.replace(",", ".")) for field in fields[1:_HEAD]]
+    if len(head) < _HEAD - 1 or not all(2 <= n <= 1e9 and n == int(n) for n in head[:2]):
         raise ContentError(
             "its header is damaged", "write columns and rows, and the ranges of x, y and z, below DSAA"
         )
+    nx, ny, west, east, south, north, low, high = head
     heights, notes, warnings = grid_of(fields[_HEAD:], (int(ny), int(nx)))
     found = holds_mark(heights, (_BLANK,))
     heights = np.where(found, np.nan, heights)[::-1]
-    west, east, south, north, low, high = ends
     slack = _ROUNDING * max(abs(low), abs(high))
     outside = np.count_nonzero((heights < low - slack) | (heights > high + slack))
     if outside:
