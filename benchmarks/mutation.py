@@ -8,8 +8,8 @@ Mutants of the rooms are drawn at random, in proportion to their places: a compa
 one, a condition its opposite, a number its neighbour, a returned value None, a call by itself nothing. Each is tried
 with the tests of its room that run its line (found once with coverage, ROOM.coverage in the store), until one fails.
 The store is a line of JSON a mutant: a run that was stopped goes on where it was.
-Survivors that cannot change an answer are listed with the reason in ``benchmarks/mutation-equivalent.toml``; they leave
-the score.
+Survivors that cannot change an answer are listed with the reason in ``benchmarks/mutation-equivalent.toml``, by their
+file and the changed line; they leave the score.
 """
 
 from __future__ import annotations
@@ -68,6 +68,12 @@ class Mutant:
     def applied(self, text: str) -> str:
         """Return the text of its file with the change."""
         return text[: self.start] + self.new + text[self.end :]
+
+    def changed(self, text: str) -> str:
+        """Return its file and the line with the change, which stay the same when other lines are edited."""
+        whole = self.applied(text)
+        line = whole[whole.rfind("\n", 0, self.start) + 1 :].partition("\n")[0]
+        return f"{self.file}: {line.strip()}"
 
 
 def mutants(path: Path, room: str) -> Iterator[Mutant]:
@@ -247,7 +253,7 @@ def report(rows: dict[str, dict[str, object]]) -> None:
     for room in (*ROOMS, "all"):
         of = {name: row for name, row in rows.items() if room in ("all", row["room"])}
         left = {name for name, row in of.items() if row["result"] == "survived"}
-        same = left & known.keys()
+        same = {name for name in left if of[name]["changed"] in known}
         counted = len(of) - len(same)
         if counted:
             found = len(of) - len(left)
@@ -256,7 +262,7 @@ def report(rows: dict[str, dict[str, object]]) -> None:
             )
     for name, row in sorted(rows.items()):
         if row["result"] == "survived":
-            print(f"survived: {name} -> {row['new']!r} {known.get(name, '')}")
+            print(f"survived: {name} {row['changed']!r} {known.get(row['changed'], '')}")
 
 
 def main() -> None:
@@ -296,7 +302,14 @@ def main() -> None:
         else:
             result = bench.tried(mutant, tests_of(mutant, bench.home, covered[mutant.room]), LIMIT)
         seconds = round(time.monotonic() - start, 1)
-        row = {"name": mutant.name, **asdict(mutant), "result": result, "seconds": seconds}
+        changed = mutant.changed((PACKAGE / mutant.file).read_text(encoding="utf-8"))
+        row = {
+            "name": mutant.name,
+            **asdict(mutant),
+            "changed": changed,
+            "result": result,
+            "seconds": seconds,
+        }
         with store.open("a", encoding="utf-8") as file:
             file.write(json.dumps(row) + "\n")
         print(f"{result:8s} {seconds:6.1f} s  {mutant.name} -> {mutant.new!r}", flush=True)

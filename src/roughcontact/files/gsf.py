@@ -69,7 +69,8 @@ def _fields(header: bytes) -> dict[str, str]:
 
 def _count(fields: dict[str, str], name: str) -> int:
     text = fields.get(name, "")
-    if re.fullmatch("[1-9][0-9]{0,9}", text) is None:
+    # A positive whole number of up to ten digits.
+    if re.fullmatch("0*[1-9][0-9]{0,9}", text) is None:
         raise ContentError(f"its header states {text!r} for {name}", _AGAIN)
     return int(text)
 

@@ -40,12 +40,11 @@ class MeasuredPoints(NamedTuple):
     values: Array
     errors: Array
 
-    def bands(self, inference: JointInference, pressures: Array) -> list[tuple[Array, Array, Array]]:
-        """Return the predicted values, low, median and high, for each of the `LEVELS`."""
+    def bands(self, inference: JointInference, pressures: Array) -> Array:
+        """Return the predicted values, low, median and high, for each of the `LEVELS`, shape (levels, 3, pressures)."""
         quantiles = closure_quantiles if self.name == "closure" else stiffness_quantiles
         shares = [share for level in LEVELS for share in ends(level)]
-        low, median, high = quantiles(inference, pressures, shares).reshape(len(LEVELS), 3, -1).swapaxes(0, 1)
-        return list(zip(low, median, high, strict=True))
+        return quantiles(inference, pressures, shares).reshape(len(LEVELS), 3, -1)
 
 
 def measured_points(inference: JointInference) -> MeasuredPoints:
