@@ -1,13 +1,15 @@
 """Mutation score of the tests: changes of the code, one at a time, and whether a test fails.
 
     python benchmarks/mutation.py --store FOLDER [--count 400] [--seed 0] [--rooms solver,contact] [--minutes 60]
+        [--processes 2]
     python benchmarks/mutation.py --store FOLDER --whole     # once more against all tests, those that survived
     python benchmarks/mutation.py --store FOLDER --report
 
 Mutants of the rooms are drawn at random, in proportion to their places: a comparison or an operator becomes another
 one, a condition its opposite, a number its neighbour, a returned value None, a call by itself nothing. Each is tried
-with the tests of its room that run its line (found once with coverage, ROOM.coverage in the store), until one fails.
-The store is a line of JSON a mutant: a run that was stopped goes on where it was.
+with the tests of its room that run its line, quick ones first, until one fails. Lines and times are measured once
+(ROOM.coverage and ROOM.xml in the store). The store is a line of JSON a mutant: a run that was stopped goes on where it
+was.
 Survivors that cannot change an answer are listed with the reason in ``benchmarks/mutation-equivalent.toml``, by their
 file and the changed line; they leave the score.
 """
@@ -19,16 +21,20 @@ import ast
 import json
 import os
 import random
-import resource
 import shutil
 import signal
 import subprocess
 import sys
+import threading
 import time
 import tomllib
+import xml.etree.ElementTree as ET
+from collections import Counter
 from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass
 from pathlib import Path
+from queue import SimpleQueue
 
 from coverage import CoverageData
 
@@ -36,7 +42,8 @@ ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = ROOT / "src" / "roughcontact"
 EQUIVALENT = Path(__file__).with_name("mutation-equivalent.toml")
 ROOMS = ("solver", "contact", "adhesion", "halfspace", "files")
-LIMIT = 400  # [s] of processor time, some times that of a room's tests: the mutant hangs, and counts as found
+SLOWER = 4  # times the tests' own seconds: a mutant that takes more processor time hangs, and counts as found
+START = 60  # [s] for the start of the tests, and what is measured badly
 WAIT = 3600.0  # [s] for a mutant that waits for ever
 COMPARED = {
     ast.Lt: "<=", ast.LtE: "<", ast.Gt: ">=", ast.GtE: ">", ast.Eq: "!=", ast.NotEq: "==",
@@ -184,13 +191,13 @@ class Bench:
         shutil.rmtree(self.home, ignore_errors=True)
         shutil.copytree(PACKAGE, self.home / "roughcontact", ignore=shutil.ignore_patterns("__pycache__"))
 
-    def tried(self, mutant: Mutant, tests: list[str], limit: int) -> str:
+    def tried(self, mutant: Mutant, tests: list[str], limit: float) -> str:
         """Return whether tests found a mutant within some seconds: "found", "hung" or "survived"."""
         path = self.home / "roughcontact" / mutant.file
         whole = path.read_text(encoding="utf-8")
         path.write_text(mutant.applied(whole), encoding="utf-8")
         try:
-            done = self.pytest("-x", *tests, limit=limit)
+            done = self.pytest("-x", *tests, limit=f"{limit:.0f}")
             if done.returncode > 4:  # no test ran; 4 is a file that is not imported, below zero is a crash
                 raise RuntimeError(done.stdout.decode()[-2000:])
             return {0: "survived", -signal.SIGXCPU: "hung"}.get(done.returncode, "found")
@@ -199,44 +206,68 @@ class Bench:
         finally:
             path.write_text(whole, encoding="utf-8")
 
-    def pytest(self, *words: str, limit: int = resource.RLIM_INFINITY) -> subprocess.CompletedProcess[bytes]:
+    def pytest(
+        self, *words: str, limit: str = "unlimited", **variables: str
+    ) -> subprocess.CompletedProcess[bytes]:
         """Run tests on the copy, for so many seconds of processor time at most."""
         paths = os.pathsep.join([str(self.home), str(ROOT / "reproduction" / "src")])
         threads = dict.fromkeys(("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS"), "1")
         environment = os.environ | threads | {"PYTHONPATH": paths, "PYTHONDONTWRITEBYTECODE": "1"}
+        limited = ["sh", "-c", 'ulimit -S -t "$0" && exec "$@"', limit]
         command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "--no-header", *words]
         return subprocess.run(
-            command,
+            [*limited, *command],
             cwd=ROOT,
-            env=environment,
+            env=environment | variables,
             capture_output=True,
             timeout=WAIT,
             check=False,
-            preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (limit, resource.RLIM_INFINITY)),
         )
 
-    def covered(self, store: Path, room: str) -> CoverageData:
-        """Return which tests of a room run which lines of it."""
-        file = store / f"{room}.coverage"
-        if not file.exists():
-            os.environ["COVERAGE_FILE"] = str(file)
+    def covered(self, store: Path, room: str) -> Covered:
+        """Return which tests of a room run which lines of it, and how long they take."""
+        file, times = store / f"{room}.coverage", store / f"{room}.xml"
+        if not times.exists():
             measured = f"--cov={self.home / 'roughcontact' / room}", "--cov-context=test", "--cov-report="
-            done = self.pytest(*measured, f"tests/{room}")
+            done = self.pytest(*measured, f"--junitxml={times}", f"tests/{room}", COVERAGE_FILE=str(file))
             if done.returncode:
+                times.unlink(missing_ok=True)
                 raise RuntimeError(
                     f"the tests of {room} fail without a mutant: {done.stdout.decode()[-2000:]}"
                 )
         data = CoverageData(str(file))
         data.read()
-        return data
+        seconds: Counter[str] = Counter()
+        for case in ET.parse(times).iter("testcase"):
+            seconds[f"{case.get('classname')}.{case.get('name', '').partition('[')[0]}"] += float(
+                case.get("time", 0)
+            )
+        return Covered(data, self.home / "roughcontact", seconds)
 
 
-def tests_of(mutant: Mutant, home: Path, covered: CoverageData) -> list[str]:
-    """Return the tests that run the line of a mutant; all of its room where it runs on import."""
-    lines = covered.contexts_by_lineno(str(home / "roughcontact" / mutant.file))
-    line = max((line for line in lines if line <= mutant.line), default=0)  # where its statement begins
-    tests = {test.partition("|")[0].partition("[")[0] for test in lines.get(line, []) if test}
-    return sorted(tests) or [f"tests/{mutant.room}"]
+@dataclass(frozen=True)
+class Covered:
+    """The lines that the tests of a room run, and the seconds that they take."""
+
+    data: CoverageData
+    package: Path
+    seconds: Counter[str]
+
+    def tests_of(self, mutant: Mutant) -> tuple[list[str], float]:
+        """Return the tests that run the line of a mutant, the quickest first, and after how many seconds it hangs.
+
+        They are all of its room where the line runs on import.
+        """
+        lines = self.data.contexts_by_lineno(str(self.package / mutant.file))
+        line = max((line for line in lines if line <= mutant.line), default=0)  # where its statement begins
+        tests = {test.partition("|")[0].partition("[")[0] for test in lines.get(line, []) if test}
+        if not tests:
+            return [f"tests/{mutant.room}"], START + SLOWER * self.seconds.total()
+        taken = {
+            test: self.seconds[test.replace(".py::", ".").replace("/", ".").replace("::", ".")]
+            for test in tests
+        }
+        return sorted(tests, key=lambda test: (taken[test], test)), START + SLOWER * sum(taken.values())
 
 
 def read(store: Path) -> dict[str, dict[str, object]]:
@@ -273,6 +304,7 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=0)
     parser.add_argument("--rooms", default=",".join(ROOMS))
     parser.add_argument("--minutes", type=float, default=1e6)
+    parser.add_argument("--processes", type=int, default=1, help="mutants tried at once")
     parser.add_argument("--whole", action="store_true")
     parser.add_argument("--report", action="store_true")
     chosen = parser.parse_args()
@@ -283,36 +315,44 @@ def main() -> None:
     if chosen.report:
         report(rows)
         return
-    bench = Bench(chosen.store / "copy")
-    bench.prepare()
+    wanted = [
+        mutant
+        for mutant in drawn(tuple(chosen.rooms.split(",")), chosen.count, chosen.seed)
+        if (
+            rows.get(mutant.name, {}).get("result") == "survived" if chosen.whole else mutant.name not in rows
+        )
+    ]
+    benches: SimpleQueue[Bench] = SimpleQueue()
+    for number in range(chosen.processes):
+        bench = Bench(chosen.store / f"copy{number}")
+        bench.prepare()
+        benches.put(bench)
+    rooms = () if chosen.whole else {mutant.room for mutant in wanted}
+    covered = {room: Bench(chosen.store / "copy0").covered(chosen.store, room) for room in sorted(rooms)}
     until = time.monotonic() + 60 * chosen.minutes
-    covered: dict[str, CoverageData] = {}
-    for mutant in drawn(tuple(chosen.rooms.split(",")), chosen.count, chosen.seed):
-        before = rows.get(mutant.name)
-        wanted = before is None if not chosen.whole else before is not None and before["result"] == "survived"
-        if not wanted or time.monotonic() > until:
-            continue
-        if mutant.room not in covered and not chosen.whole:
-            covered[mutant.room] = bench.covered(chosen.store, mutant.room)
-        start = time.monotonic()
+    writing = threading.Lock()
+
+    def work(mutant: Mutant) -> None:
+        if time.monotonic() > until:
+            return
         if chosen.whole:
-            result = bench.tried(
-                mutant, ["-n", "auto", "tests", "reproduction/tests"], resource.RLIM_INFINITY
-            )
+            tests, limit = ["-n", "auto", "tests", "reproduction/tests"], 1e9
         else:
-            result = bench.tried(mutant, tests_of(mutant, bench.home, covered[mutant.room]), LIMIT)
+            tests, limit = covered[mutant.room].tests_of(mutant)
+        bench, start = benches.get(), time.monotonic()
+        try:
+            result = bench.tried(mutant, tests, limit)
+        finally:
+            benches.put(bench)
         seconds = round(time.monotonic() - start, 1)
         changed = mutant.changed((PACKAGE / mutant.file).read_text(encoding="utf-8"))
-        row = {
-            "name": mutant.name,
-            **asdict(mutant),
-            "changed": changed,
-            "result": result,
-            "seconds": seconds,
-        }
-        with store.open("a", encoding="utf-8") as file:
-            file.write(json.dumps(row) + "\n")
+        measured = {"changed": changed, "result": result, "seconds": seconds}
+        with writing, store.open("a", encoding="utf-8") as file:
+            file.write(json.dumps({"name": mutant.name, **asdict(mutant), **measured}) + "\n")
         print(f"{result:8s} {seconds:6.1f} s  {mutant.name} -> {mutant.new!r}", flush=True)
+
+    with ThreadPoolExecutor(chosen.processes) as pool:
+        list(pool.map(work, wanted))
     report(read(store))
 
 

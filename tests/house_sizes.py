@@ -8,9 +8,7 @@ from __future__ import annotations
 import ast
 import importlib.util
 import inspect
-import io
 import sys
-import tokenize
 from collections import Counter, defaultdict
 from collections.abc import Collection, Container, Iterator, Mapping
 from functools import cache
@@ -25,21 +23,25 @@ from public_names import public_names
 
 SOURCE = Path(roughcontact.__file__).parent
 ROOT = Path(__file__).parents[1]
-QUIET = {tokenize.COMMENT, tokenize.NL, tokenize.NEWLINE, tokenize.INDENT, tokenize.DEDENT, tokenize.ENCODING}
 
 
 def code_lines(text: str) -> int:
     """Return the number of lines of code of a module."""
     documented = ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef
-    strings = set()
+    lines = {
+        number
+        for number, line in enumerate(text.splitlines(), 1)
+        if line.strip() and not line.lstrip().startswith("#")
+    }
+    documents: set[int] = set()
     for node in ast.walk(ast.parse(text)):
-        if isinstance(node, documented) and ast.get_docstring(node, clean=False) is not None:
-            strings |= set(range(node.body[0].lineno, (node.body[0].end_lineno or 0) + 1))
-    lines = set()
-    for token in tokenize.generate_tokens(io.StringIO(text).readline):
-        if token.type not in QUIET and token.type != tokenize.ENDMARKER:
-            lines |= set(range(token.start[0], token.end[0] + 1))
-    return len(lines - strings)
+        if isinstance(
+            node, ast.Constant | ast.JoinedStr
+        ):  # a string may hold blank lines, and lines like comments
+            lines |= set(range(node.lineno, (node.end_lineno or 0) + 1))
+        elif isinstance(node, documented) and ast.get_docstring(node, clean=False) is not None:
+            documents |= set(range(node.body[0].lineno, (node.body[0].end_lineno or 0) + 1))
+    return len(lines - documents)
 
 
 def sizes(folder: Path) -> tuple[int, int, int]:

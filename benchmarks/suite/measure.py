@@ -6,6 +6,7 @@ import statistics
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from functools import cache, partial
 from typing import Any
 
 import numpy as np
@@ -29,6 +30,7 @@ ONCE = 5.0  # [s]; what takes longer is not repeated more than once
 PATIENCE = 3  # times the rounds asked for, before a busy machine is given up on
 
 Settings = dict[str, float]
+Judges = Callable[[], Judged | str]
 
 
 @dataclass(eq=False)
@@ -92,7 +94,8 @@ def compare(
     if memory:  # first: the machine does not have to hold the kernel of the judge beside another process
         for entry in entries:
             entry.memory = peak_alone(entry.program, case.kind, problem, entry.tolerance)
-    judge = judge_of(case.kind, problem)
+    # Made beside the first answer, and dropped before times are taken: the programs have the memory to themselves.
+    judge = cache(partial(judge_of, case.kind, problem))
     for entry in list(entries):
         try:
             _certify(entry, problem, judge, case.tolerance)
@@ -102,8 +105,10 @@ def compare(
         if entry.certificate and entry.certificate.error <= case.tolerance:
             settings[entry.program.name] = entry.tolerance
     _check_agreement(entries, problem, judge, case)
+    uncertified = reason if entries and isinstance(reason := judge(), str) else None
+    judge.cache_clear()
     _take_times(entries, problem, repeats)
-    rows = [entry.row() | {"uncertified": judge if isinstance(judge, str) else None} for entry in entries]
+    rows = [entry.row() | {"uncertified": uncertified} for entry in entries]
     if entries and "pressure" in entries[0].answer:
         rows[0]["product_seconds"] = product_seconds(problem, entries[0].answer["pressure"])
     return rows
@@ -118,13 +123,13 @@ def _run(entry: Entry, problem: Problem, tolerance: float) -> tuple[dict[str, An
     return answer, seconds, disturbed(seconds, waited() - waiting, others() - taken)
 
 
-def _certify(entry: Entry, problem: Problem, judge: Judged | str, goal: float) -> None:
+def _certify(entry: Entry, problem: Problem, judge: Judges, goal: float) -> None:
     """Tighten the program's tolerance until the judge certifies its answer to `goal`; these runs warm it up."""
     for _ in range(TRIES):
         try:
             entry.answer, *_ = _run(entry, problem, entry.tolerance)
-            if not isinstance(judge, str):
-                entry.certificate = judge(entry.answer)
+            if callable(certify := judge()):
+                entry.certificate = certify(entry.answer)
         except NotImplementedError:
             raise
         except Exception as error:  # a program that fails here is reported, and the others go on
@@ -138,7 +143,7 @@ def _certify(entry: Entry, problem: Problem, judge: Judged | str, goal: float) -
     entry.tolerance /= STEP
 
 
-def _check_agreement(entries: list[Entry], problem: Problem, judge: Judged | str, case: Case) -> None:
+def _check_agreement(entries: list[Entry], problem: Problem, judge: Judges, case: Case) -> None:
     """Set how far every answer is from the reference, which is the first entry.
 
     Two answers may each be certified and still be further apart than the allowed difference, where a small part of the
@@ -164,7 +169,7 @@ def _check_agreement(entries: list[Entry], problem: Problem, judge: Judged | str
             entry.trouble = f"answers differ by {entry.difference:.1e} of the largest {FIELDS[case.kind]}"
 
 
-def _tighter(entry: Entry, problem: Problem, judge: Judged | str, goal: float) -> Entry:
+def _tighter(entry: Entry, problem: Problem, judge: Judges, goal: float) -> Entry:
     again = Entry(entry.program, entry.solve, entry.tolerance * TIGHTER)
     _certify(again, problem, judge, goal)
     if again.certificate is None or again.certificate.error > goal:
