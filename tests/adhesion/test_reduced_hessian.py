@@ -5,7 +5,7 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.adhesion.elastic_form import elastic_form
-from roughcontact.adhesion.reduced_hessian import smallest_ratio
+from roughcontact.adhesion.reduced_hessian import _ritz, smallest_ratio
 from roughcontact.adhesion.truncated_newton import Counter
 from sticking import eigenvalues_by_matrices
 
@@ -40,6 +40,22 @@ def test_the_smallest_eigenvalue_and_its_bound_on_two_hundred_small_problems(kin
         assert best.bound <= 1e-3
         for ritz in found:  # what its bound says, of some eigenvalue
             assert np.abs(values - ritz.value).min() <= ritz.bound + 1e-9
+
+
+def test_ritz_pairs_of_independent_fields_are_all_found():
+    """With as many fields as unknowns these are the eigenpairs: the attraction is one less the value of the elastic one."""
+    form = elastic_form(rc.half_space(rc.Grid((2, 3), 1.0), 1.0))
+    rng = np.random.default_rng(4)
+    unknowns = int(np.prod(form.shape))
+    fields, weight = rng.standard_normal((unknowns, *form.shape)), rng.random(form.shape)
+    images = np.array([form.stiffness(field) for field in fields])
+    coefficients, values = _ritz(form, fields, images, weight * fields)
+    assert coefficients.shape == (unknowns, unknowns)
+    assert (np.diff(values) >= 0).all()
+    for numbers, value in zip(coefficients.T, values, strict=True):
+        field = np.tensordot(numbers, fields, 1)
+        image = np.tensordot(numbers, images, 1)
+        np.testing.assert_allclose(weight * field, (1 - value) * image, atol=1e-9 * np.abs(image).max())
 
 
 def test_without_attraction_it_is_one():

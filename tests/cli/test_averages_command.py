@@ -40,7 +40,7 @@ def study(tmp_path_factory):
     return folder / "tried"
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def averaged(study):
     with Store.open(study) as store:
         return averages(export(store), force_window(5e-3, 0.07), rng=np.random.default_rng(3))

@@ -256,9 +256,12 @@ def test_a_start_in_single_precision_rounds_no_displacement(watched, inside):
     assert left <= 1e-8 / 3 * (1 + 1e-6)
 
 
+@pytest.mark.parametrize("compiled", [True, False])
 @pytest.mark.parametrize(("step", "modulus"), [(1.0, 1.0), (1e-9, 1e12), (1e6, 1e-3)])
-def test_what_a_factorisation_says_of_itself_hangs_on_no_unit(step, modulus):
+def test_what_a_factorisation_says_of_itself_hangs_on_no_unit(step, modulus, compiled, monkeypatch):
     """Roundings of a hundred terms, whatever the size of influences beside that of their roots."""
+    if not compiled:
+        monkeypatch.setattr("roughcontact.solver.direct.tuning.COMPILED_CELLS", 0)
     body = rc.half_space(rc.Grid((20, 21), step), modulus)
     few = region((20, 21), share=0.3)
     cells = np.flatnonzero(few)
