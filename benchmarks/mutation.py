@@ -7,9 +7,9 @@
 
 Mutants of the rooms are drawn at random, in proportion to their places: a comparison or an operator becomes another
 one, a condition its opposite, a number its neighbour, a returned value None, a call by itself nothing. Each is tried
-with the tests of its room that run its line, quick ones first, until one fails. Lines and times are measured once
-(ROOM.coverage and ROOM.xml in the store). The store is a line of JSON a mutant: a run that was stopped goes on where it
-was.
+with the tests of its room that run its line, quick ones first, then with those that run its file, until one fails.
+Lines and times are measured once (ROOM.coverage and ROOM.xml in the store). The store is a line of JSON a mutant: a run
+that was stopped goes on where it was.
 Survivors that cannot change an answer are listed with the reason in ``benchmarks/mutation-equivalent.toml``, by their
 file and the changed line; they leave the score.
 """
@@ -29,10 +29,11 @@ import threading
 import time
 import tomllib
 import xml.etree.ElementTree as ET
-from collections import Counter
-from collections.abc import Iterator
+from collections import defaultdict
+from collections.abc import Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import asdict, dataclass
+from itertools import chain
 from pathlib import Path
 from queue import SimpleQueue
 
@@ -237,7 +238,7 @@ class Bench:
                 )
         data = CoverageData(str(file))
         data.read()
-        seconds: Counter[str] = Counter()
+        seconds: defaultdict[str, float] = defaultdict(float)
         for case in ET.parse(times).iter("testcase"):
             seconds[f"{case.get('classname')}.{case.get('name', '').partition('[')[0]}"] += float(
                 case.get("time", 0)
@@ -251,23 +252,33 @@ class Covered:
 
     data: CoverageData
     package: Path
-    seconds: Counter[str]
+    seconds: defaultdict[str, float]
 
-    def tests_of(self, mutant: Mutant) -> tuple[list[str], float]:
-        """Return the tests that run the line of a mutant, the quickest first, and after how many seconds it hangs.
+    def tests_of(self, mutant: Mutant) -> Iterator[tuple[list[str], float]]:
+        """Yield tests, the quickest first, and after how many seconds a mutant hangs in them.
 
-        They are all of its room where the line runs on import.
+        First those that run its line, then those that run another one of its file: a line whose answer is kept runs in
+        the first test that wants it. They are all of its room where the line runs on import.
         """
         lines = self.data.contexts_by_lineno(str(self.package / mutant.file))
         line = max((line for line in lines if line <= mutant.line), default=0)  # where its statement begins
-        tests = {test.partition("|")[0].partition("[")[0] for test in lines.get(line, []) if test}
-        if not tests:
-            return [f"tests/{mutant.room}"], START + SLOWER * self.seconds.total()
-        taken = {
-            test: self.seconds[test.replace(".py::", ".").replace("/", ".").replace("::", ".")]
-            for test in tests
-        }
-        return sorted(tests, key=lambda test: (taken[test], test)), START + SLOWER * sum(taken.values())
+        first = _tests(lines.get(line, []))
+        if not first:
+            yield [f"tests/{mutant.room}"], START + SLOWER * sum(self.seconds.values())
+            return
+        for tests in (first, _tests(chain.from_iterable(lines.values())) - first):
+            taken = {
+                test: self.seconds[test.replace(".py::", ".").replace("/", ".").replace("::", ".")]
+                for test in tests
+            }
+            if tests:
+                quick = sorted(tests, key=lambda test: (taken[test], test))
+                yield quick, START + SLOWER * sum(taken.values())
+
+
+def _tests(contexts: Iterable[str]) -> set[str]:
+    """Return the tests of contexts, whatever their parameters; an empty one is that of the import."""
+    return {context.partition("|")[0].partition("[")[0] for context in contexts if context}
 
 
 def read(store: Path) -> dict[str, dict[str, object]]:
@@ -335,13 +346,12 @@ def main() -> None:
     def work(mutant: Mutant) -> None:
         if time.monotonic() > until:
             return
-        if chosen.whole:
-            tests, limit = ["-n", "auto", "tests", "reproduction/tests"], 1e9
-        else:
-            tests, limit = covered[mutant.room].tests_of(mutant)
+        everything = [(["-n", "auto", "tests", "reproduction/tests"], 1e9)]
+        tries = everything if chosen.whole else covered[mutant.room].tests_of(mutant)
         bench, start = benches.get(), time.monotonic()
         try:
-            result = bench.tried(mutant, tests, limit)
+            results = (bench.tried(mutant, tests, limit) for tests, limit in tries)
+            result = next((each for each in results if each != "survived"), "survived")
         finally:
             benches.put(bench)
         seconds = round(time.monotonic() - start, 1)

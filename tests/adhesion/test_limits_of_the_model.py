@@ -192,7 +192,7 @@ def test_the_error_of_the_grid_on_the_pull_off_force_is_noted(cells, noted):
     """A sphere with so many cells in its contact radius at the pull-off by Johnson, Kendall and Roberts."""
     radius, work, modulus = 1e-5, 10e-3, 1e8
     narrow = (9 * math.pi * work * radius**2 / (2 * modulus) / 4) ** (1 / 3)
-    grid = rc.Grid((3 * cells, 3 * cells), narrow / cells)  # Hertz's contact has 1.1 times the radius
+    grid = rc.Grid((5 * cells, 5 * cells), narrow / cells)
     pressed = rc.press(rc.shapes.paraboloid(grid, radius=radius), modulus, force=2 * math.pi * work * radius)
     curve = rc.detachment_curve(pressed, work)
     error = curve.pull_off_force / (1.5 * math.pi * work * radius) - 1

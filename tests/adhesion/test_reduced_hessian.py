@@ -43,7 +43,7 @@ def test_the_smallest_eigenvalue_and_its_bound_on_two_hundred_small_problems(kin
 
 
 def test_ritz_pairs_of_independent_fields_are_all_found():
-    """With as many fields as unknowns these are the eigenpairs: the attraction is one less the value of the elastic one."""
+    """With as many fields as unknowns these are the eigenpairs of attraction and elastic body."""
     form = elastic_form(rc.half_space(rc.Grid((2, 3), 1.0), 1.0))
     rng = np.random.default_rng(4)
     unknowns = int(np.prod(form.shape))

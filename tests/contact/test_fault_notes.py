@@ -8,6 +8,7 @@ import pytest
 
 import roughcontact as rc
 from measured import NOT_HERE, SURFACES
+from roughcontact.contact.notes import fault_notes as faults
 from roughcontact.contact.notes.fault_notes import FEW, fault_notes
 from roughcontact.labels.note import Rank
 
@@ -105,3 +106,23 @@ def test_a_measured_map_is_noted_before_its_streaks_are_removed_and_not_after():
     (note,) = noted(raw, 1e6)
     assert "Streaks along scan lines carry" in note.text
     assert noted(raw.despiked(), 1e6) == []
+
+
+@pytest.mark.parametrize(("share", "sought"), [(0.05, False), (0.15, True), (0.3, True)])
+def test_streaks_are_sought_if_cells_that_stand_out_carry_a_tenth_of_the_force(monkeypatch, share, sought):
+    """Half of what streaks have to carry: an estimate from each cell's neighbours."""
+    searched = []
+
+    def standing_out(heights, cells):
+        loads = np.cumsum(solution.pressure.ravel()[cells])
+        return loads <= share * loads[-1]
+
+    def none(heights):
+        searched.append(heights)
+        return (np.zeros(heights.shape, bool),) * 3
+
+    solution = rc.press(rough(), 1e9, pressure=3e6)
+    monkeypatch.setattr(faults, "stands_out", standing_out)
+    monkeypatch.setattr(faults, "streaks_and_pieces", none)
+    list(fault_notes(solution))
+    assert bool(searched) == sought

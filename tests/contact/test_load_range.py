@@ -1,11 +1,13 @@
 """The loads that a curve takes by default: they suit the surface, and say why."""
 
+import dataclasses
 import math
 
 import numpy as np
 import pytest
 
 import roughcontact as rc
+from roughcontact.contact.loads import load_search
 from roughcontact.contact.loads.load_ends import NEAR
 from roughcontact.contact.loads.load_range import FORCES_BELOW, _even
 from roughcontact.contact.loads.load_search import LoadSearch, SearchedLoad, SurfaceKind
@@ -295,3 +297,18 @@ def test_refusals():
     with pytest.raises(ValueError, match="count"):
         rc.load_range(surface, 1e9, count=0)
     assert math.isfinite(rc.load_range(surface, 1e9).lowest)
+
+
+@pytest.mark.parametrize("modulus", [1e9, 1e-3])
+def test_a_pilot_that_begins_too_late_is_gone_behind(monkeypatch, modulus):
+    """One that is a hundred times as rough begins at ten times the load of twenty cells, in any unit."""
+    surface = rough(48, rms=1e-9)
+    found = rc.load_range(surface, modulus)
+
+    def rougher(problem):
+        return dataclasses.replace(problem, separation=100 * problem.separation)
+
+    monkeypatch.setattr(load_search, "pilot_of", rougher)
+    late = rc.load_range(surface, modulus)
+    assert late.lowest == pytest.approx(found.lowest, rel=0.02)
+    assert late.reasons[0] == found.reasons[0]

@@ -113,3 +113,19 @@ def test_notes_are_ordered_by_rank_then_as_they_are_made_and_stand_once():
     made = [Note(Rank.USUAL, "d"), Note(Rank.LIMITED, "b"), Note(Rank.WRONG, "a"), Note(Rank.LIMITED, "c")]
     assert in_order([*made, *made]) == ("a", "b", "c", "d")
     assert in_order(()) == ()
+
+
+def test_a_stiffness_that_differs_on_loading_is_noted_with_the_number_of_cells():
+    """One cell is raised by its gap, then a second one too: at the same depth they touch without pressure."""
+    grid = rc.Grid((8, 9), 1e-6)
+    heights = 1e-7 * np.random.default_rng(2).random(grid.shape)
+    pressed = rc.press(rc.Surface(heights, grid), 1e9, depth=2e-8)
+    open_cells = np.flatnonzero(pressed.gap > 0)
+    nearest = open_cells[np.argsort(pressed.gap.flat[open_cells])]
+    for number, words in ((1, "1 cell touches without pressure"), (2, "2 cells touch without pressure")):
+        raised = heights.copy()
+        raised.flat[nearest[:number]] += pressed.gap.flat[nearest[:number]]
+        solution = rc.press(rc.Surface(raised, grid), 1e9, depth=2e-8 + raised.max() - heights.max())
+        assert np.count_nonzero(solution.touching) == number
+        [note] = [note for note in notes_on(solution) if "touch" in note.text and "without" in note.text]
+        assert note.text.startswith(f"{words}: the stiffness is ")

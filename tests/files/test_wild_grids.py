@@ -9,7 +9,7 @@ from roughcontact.files.file_errors import SurfaceWarning
 from roughcontact.files.read import channels, read_line
 
 ESRI = f"ncols {NX}\nnrows {NY}\nxllcorner 340620.0\nyllcenter 3917730.0\n"
-SURFER = f"DSAA\n{NX} {NY}\n3 20.5\n0 15.5\n{HILLS.min()} {HILLS.max()}\n"
+SURFER = f"DSAA\n{NX} {NY}\n3 20.5\n7 22.5\n{HILLS.min()} {HILLS.max()}\n"
 
 
 @pytest.mark.parametrize("name", ["a.asc", "a.txt", "a.grd"])

@@ -161,6 +161,15 @@ def test_uneven_axes_lead_somewhere(put, npz):
     assert rc.read(put("a.npz", npz(heights=table_of, unit="um")), size="18 um").grid.shape == table_of.shape
 
 
+@pytest.mark.parametrize("turned", [False, True])
+def test_heights_that_rise_along_one_side_are_no_reason_for_axes(put, turned):
+    """A slope: its first row and column are sorted, and so is what lies beside one of them."""
+    y, x = np.indices((20, 24))
+    slope = (x + 1) ** 1.5 + np.where(x == 0, y**1.4, 0.3 * np.sin(2.0 * y))
+    path = put("a.txt", table(slope.T if turned else slope))
+    assert rc.read(path, **GIVEN).grid.shape == ((24, 20) if turned else (20, 24))
+
+
 def test_names_of_columns_are_left_out(put):
     surface = rc.read(put("a.csv", table(header=[[f"c{k}" for k in range(NX)]])), **GIVEN)
     is_right(surface)

@@ -7,6 +7,7 @@ import hashlib
 import json
 import os
 import struct
+import sys
 from datetime import UTC, datetime, timedelta
 from pathlib import Path
 
@@ -18,6 +19,7 @@ import xarray
 import roughcontact as rc
 from roughcontact.files.aside import WriteError, output_folder, written_aside
 from roughcontact.files.provenance import provenance, surface_hash
+from roughcontact.files.standard_streams import write_standard_output
 from roughcontact.files.write import netcdf_bytes, write_csv, write_json, write_netcdf
 
 MODULUS = 1e11
@@ -357,3 +359,9 @@ def test_the_bytes_are_those_of_a_file_that_holds_the_dataset(tmp_path):
 def test_maps_are_compressed():
     dataset = xarray.Dataset({"gap": (("y", "x"), np.zeros((500, 500)))})
     assert len(netcdf_bytes(dataset)) < 0.05 * dataset["gap"].nbytes
+
+
+def test_a_file_goes_to_standard_output_after_what_was_printed(capsysbinary):
+    sys.stdout.write("before")
+    write_standard_output(b"\x89\x00bytes")
+    assert capsysbinary.readouterr().out == b"before\x89\x00bytes"

@@ -12,7 +12,7 @@ import roughcontact as rc
 from libraries import LIBRARIES
 from roughcontact.contact.press import solve
 from roughcontact.contact.problem import ContactProblem
-from roughcontact.solver.complementarity import FINEST
+from roughcontact.solver.complementarity import FINEST, _pressed_by_rounding
 
 MODULUS = 3e9
 STEP = 2e-7
@@ -224,3 +224,9 @@ def test_first_touch_has_two_sides_too():
     np.testing.assert_array_equal(solution.touching, highest)
     assert solution.loading_stiffness == pytest.approx(rc.contact_stiffness(highest, surface.grid, 1.0))
     assert not any("touch" in note for note in solution.notes)
+
+
+def test_pressures_that_rounding_makes_are_small_and_not_none():
+    """4 m/Pa times what is allowed over the cell's own influence of 2 m/Pa: 2e-3."""
+    found = _pressed_by_rounding(np.array([0.0, 1e-3, 2e-3, 2.1e-3]), 2.0, 1e-3)
+    np.testing.assert_array_equal(found, [False, True, True, False])

@@ -269,6 +269,9 @@ def test_what_a_factorisation_says_of_itself_hangs_on_no_unit(step, modulus, com
     pressed = press_cells(body, rough, Depth(0.7 * step), cells)
     assert 10 < len(pressed.cells) < len(cells)
     assert pressed.error < 1e-13
+    given = body.as_matrix(pressed.cells) @ pressed.pressure
+    wanted = 0.7 * step - rough.flat[pressed.cells]
+    np.testing.assert_allclose(given, wanted, rtol=0, atol=1e-12 * step)
     assert rc.prescribed_displacement(few, 1.0, operator=body).residual < 1e-13
 
 

@@ -205,3 +205,15 @@ def test_checks_are_values():
         "departure": 0.0,
         "allowed": pytest.approx(64 * 2.0**-52 * np.sqrt(GRID.size)),
     }
+
+
+def test_a_matrix_of_at_most_three_hundred_cells_is_asked_for():
+    asked = []
+
+    class Counting(Changed):
+        def as_matrix(self, cells=None):
+            asked.append(self.grid.size if cells is None else len(cells))
+            return super().as_matrix(cells)
+
+    rc.check_operator(Counting(rc.half_space(rc.Grid((20, 20), 1.0), 2.0)))
+    assert max(asked) == 300

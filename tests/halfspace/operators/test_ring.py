@@ -8,6 +8,7 @@ from scipy.special import ellipe
 
 import hats
 import roughcontact as rc
+from roughcontact.halfspace.operators.geometry import Geometry, length_scale
 
 MODULUS = 2.0
 
@@ -294,3 +295,7 @@ def test_rings_count_by_their_area():
         middle, width = (edges[1:] + edges[:-1]) / 2, np.diff(edges)
         # Within half a bar of 1/2000 of the largest.
         assert (middle * density * width).sum() == pytest.approx(mean, abs=width[0] / 2)
+
+
+def test_the_length_of_rings_is_the_side_of_a_square_of_their_area():
+    assert length_scale(Geometry.RING, (3.0,)) == pytest.approx(3 * math.sqrt(math.pi), rel=1e-15)
