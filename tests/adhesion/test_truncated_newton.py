@@ -8,7 +8,16 @@ import pytest
 
 import roughcontact as rc
 from roughcontact.adhesion.elastic_form import elastic_form
-from roughcontact.adhesion.truncated_newton import ARMIJO, HALVINGS, Counter, conjugate_gradients, line_search
+from roughcontact.adhesion.exponential_law import ExponentialLaw
+from roughcontact.adhesion.gap_energy import GapEnergy
+from roughcontact.adhesion.truncated_newton import (
+    ARMIJO,
+    HALVINGS,
+    Counter,
+    conjugate_gradients,
+    line_search,
+    minimise,
+)
 
 
 def searched(value, slope):
@@ -89,3 +98,16 @@ def test_a_linear_system_is_solved_on_the_free_cells(periodic):
 def test_negative_curvature_is_told(periodic):
     form, free, diagonal, load, _ = system(periodic, 100.0)
     assert conjugate_gradients(form, free, diagonal, load, 1e-12, Counter())[1]
+
+
+def test_where_the_energy_is_not_convex_it_goes_on_unless_it_is_told_to_stop():
+    """A flat body within reach of an attraction whose curvature, 11, exceeds the stiffness of its waves."""
+    form = elastic_form(rc.half_space(rc.Grid((6, 8), 1.0), 1.0))
+    separation = 0.5 + 0.1 * np.random.default_rng(1).random((6, 8))
+    energy = GapEnergy(form, ExponentialLaw(1.0, 0.3), form.extended(-separation, -np.inf))
+    start = np.zeros(form.shape)
+    end = minimise(energy, start, Counter())
+    assert end.converged
+    assert end.lost > 0
+    assert np.count_nonzero(end.point.gap <= 0) > 24
+    assert not minimise(energy, start, Counter(), convex_only=True).converged

@@ -10,7 +10,7 @@ import roughcontact as rc
 from roughcontact.kernels import loader
 from roughcontact.solver import active_set
 from roughcontact.solver.control import Force, Specification
-from roughcontact.solver.optimality import Iterate, Optimality, Quality
+from roughcontact.solver.optimality import Iterate, Optimality, PredictedSet, Quality
 
 GRID = rc.Grid((40, 40), 1.0)
 BODY = rc.half_space(GRID, 1.0)
@@ -175,3 +175,11 @@ def test_units_that_are_powers_of_two_change_nothing(hardness):
     assert one.status.converged
     assert other.steps == one.steps
     np.testing.assert_array_equal(other.pressure, one.pressure * moduli)
+
+
+def test_a_periodic_surface_up_to_its_mean_leaves_the_cell_of_least_pressure():
+    everything = np.ones((2, 3), bool)
+    pressure = np.array([[3.0, 2.0, 5.0], [4.0, 1.0, 6.0]])
+    left = active_set._all_but_one(PredictedSet(everything, 6, 0, everything), pressure, np)
+    assert left.count == 5
+    np.testing.assert_array_equal(left.free, pressure > 1)

@@ -31,6 +31,15 @@ def test_in_full_contact_it_takes_a_step_a_wavelength(amplitudes):
     assert state.steps == 2 * np.count_nonzero(amplitudes) + 1
 
 
+def test_cells_that_were_wrong_join_those_that_are_free_when_it_cycles():
+    """A hard case under a hardness: 43 products; without them, or with them alone, it cycles on to more than 90."""
+    surface = rc.self_affine(rc.Grid((24, 24), 1.0), 0.8, 0.3, np.random.default_rng(4))
+    depth = 0.3 * np.ptp(surface.heights)
+    found = rc.press(surface, 1.0, depth=depth, hardness=0.05, solver=rc.PolonskyKeer())
+    assert found.status.converged
+    assert found.steps < 60
+
+
 @pytest.mark.parametrize("control", [Force(3.0), Depth(0.3)], ids=str)
 def test_units_that_are_powers_of_two_change_nothing(control):
     """From nothing, where at a given depth the first step is that of a single cell."""
