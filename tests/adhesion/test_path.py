@@ -227,3 +227,20 @@ def test_states_are_the_same_in_other_units():
         small, rc.Adhesion(adhesion.work * 1e-9 * 1e11, adhesion.range * 1e-9), [1e-10], modulus=1e11
     )[0]
     assert np.isclose(other.force, one.force * 1e-18 * 1e11, rtol=1e-8)
+
+
+@pytest.mark.parametrize("unit", [1.0, 1e-6])
+def test_the_residual_is_that_of_the_conditions_of_equilibrium_in_any_unit(unit):
+    """A gap counts by the stiffness of a cell, beside tractions, over the largest traction."""
+    raised, modulus = rough(16, periodic=False, slope=0.1, seed=1), 1e9
+    surface = rc.Surface(unit * raised.heights, rc.Grid((16, 16), unit))
+    adhesion = rc.Adhesion(work=0.015 * modulus * unit, range=0.3 * unit)
+    state = rc.adhesive_state(surface, modulus, adhesion, depth=0.2 * unit)
+    operator = rc.half_space(surface.grid, modulus)
+    separation = surface.heights.max() - surface.heights
+    gap = operator.apply(state.pressure) + separation - state.depth
+    attraction = 0.05 * modulus * np.exp(-np.maximum(gap, 0) / adhesion.range)
+    worst = np.minimum(gap / operator.as_matrix(np.zeros(1, int))[0, 0], state.pressure + attraction)
+    assert state.contact.any()
+    expected = np.abs(worst).max() / max(0.05 * modulus, np.abs(state.pressure).max())
+    assert state.residual == pytest.approx(expected, rel=0.2)

@@ -12,7 +12,7 @@ import roughcontact as rc
 from libraries import LIBRARIES
 from roughcontact.contact.press import solve
 from roughcontact.contact.problem import ContactProblem
-from roughcontact.solver.complementarity import FINEST, _pressed_by_rounding
+from roughcontact.solver.complementarity import FINEST, NEAR, _pressed_by_rounding, added_stiffness
 
 MODULUS = 3e9
 STEP = 2e-7
@@ -230,3 +230,23 @@ def test_pressures_that_rounding_makes_are_small_and_not_none():
     """4 m/Pa times what is allowed over the cell's own influence of 2 m/Pa: 2e-3."""
     found = _pressed_by_rounding(np.array([0.0, 1e-3, 2e-3, 2.1e-3]), 2.0, 1e-3)
     np.testing.assert_array_equal(found, [False, True, True, False])
+
+
+@pytest.mark.parametrize("axis", [0, 1])
+def test_what_a_cell_adds_is_bounded_by_pressed_cells_as_near_on_either_side(axis):
+    """Those of up to five cells away take from it, as much before as behind it; beyond, it adds what it has alone."""
+    operator, place = rc.half_space(rc.Grid((21, 23), 0.5), 2.0), (10, 11)
+    weak = np.zeros((21, 23), bool)
+    weak[place] = True
+
+    def added(away):
+        pressed, beside = np.zeros((21, 23)), list(place)
+        beside[axis] += away
+        pressed[tuple(beside)] = 1.0
+        return added_stiffness(operator, pressed, weak)
+
+    alone = added_stiffness(operator, np.zeros((21, 23)), weak)
+    for away in range(1, NEAR + 1):
+        assert added(away) == pytest.approx(added(-away), rel=1e-12)
+        assert added(away) < alone
+    assert added(NEAR + 1) == added(-NEAR - 1) == alone

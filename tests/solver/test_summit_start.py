@@ -51,13 +51,14 @@ def test_the_summits_alone_are_in_contact(shape, periodic, control):
         assert depth == control.value
 
 
+@pytest.mark.parametrize("side", [1.0, 0.25])
 @pytest.mark.parametrize("count", [BLOCKS**2, BLOCKS**2 + 1])
-def test_of_no_more_cells_than_summits_none_is_pressed(count):
+def test_of_no_more_cells_than_summits_none_is_pressed(count, side):
     """The lowest cell alone goes as deep as the others are high, but for those that are higher by far."""
     shape = (16, 16)
-    body = rc.half_space(rc.Grid(shape, 1.0), 1.0)
+    body = rc.half_space(rc.Grid(shape, side), 1.0)
     separation = np.where(np.arange(256).reshape(shape) < count, 0.9, 1.1)
     separation[0, 0] = 0.0
-    force = 1.0 / body.as_matrix(np.zeros(1, int))[0, 0]
+    force = side**2 / body.as_matrix(np.zeros(1, int))[0, 0]
     pressure, _ = summit_start(body, separation, rc.Force(force))
     assert pressure.any() == (count > BLOCKS**2)
