@@ -1,8 +1,13 @@
 """What a product costs: machine code and slabs against plain transforms, and direct sums against transforms.
 
 OMP_NUM_THREADS=1 python benchmarks/transforms.py; single-threaded, best of several runs, in milliseconds.
+
+python benchmarks/transforms.py --threads: large periodic products on one thread and on two, by SciPy, by ducc0 if it is
+installed, and in machine code.
 """
 
+import importlib.util
+import sys
 import time
 
 import numpy as np
@@ -12,6 +17,7 @@ from roughcontact import transforms
 from roughcontact.grid import Grid
 from roughcontact.halfspace.influence.tables import Love, Tables
 from roughcontact.halfspace.operators.cell_list import CellsOperator
+from roughcontact.threads import limit_threads
 from roughcontact.transforms import Convolution, padded_length
 
 
@@ -77,7 +83,45 @@ def lookups():
         print(f"{n:6d}  {transform / lookup:5.2f}")
 
 
+def threads():
+    print("a product with a periodic n x n field, on one thread and on two")
+    rng = np.random.default_rng(0)
+    for n in (1024, 2048, 4096):
+        field, quadrant = rng.random((n, n)), rng.random((n // 2 + 1, n // 2 + 1))
+        whole = quadrant[np.minimum(np.arange(n), n - np.arange(n))]
+        compiled = Convolution(quadrant, (n, n))
+
+        def by_scipy(count, field=field, whole=whole):
+            with scipy.fft.set_workers(count):
+                return plain(field, whole, field.shape)
+
+        def by_ducc0(count, field=field, whole=whole):
+            import ducc0
+
+            spectrum = ducc0.fft.r2c(field, axes=(0, 1), nthreads=count)
+            spectrum *= whole
+            back = {"lastsize": field.shape[1], "forward": False, "inorm": 2, "nthreads": count}
+            return ducc0.fft.c2r(spectrum, axes=(0, 1), **back)
+
+        def here(count, field=field, compiled=compiled):
+            with limit_threads(count):
+                return compiled.apply(field)
+
+        ways = {"SciPy": by_scipy, "machine code": here}
+        if importlib.util.find_spec("ducc0") is not None:
+            ways["ducc0"] = by_ducc0
+        row = []
+        for name, way in ways.items():
+            np.testing.assert_allclose(way(2), here(1), atol=1e-9)
+            one, two = best(way, 1), best(way, 2)
+            row.append(f"{name} {one:6.1f} {two:6.1f} ({one / two:.2f} times)")
+        print(f"{n:6d}  " + "   ".join(row))
+
+
 if __name__ == "__main__":
-    machine()
-    slabs()
-    lookups()
+    if "--threads" in sys.argv:
+        threads()
+    else:
+        machine()
+        slabs()
+        lookups()

@@ -12,7 +12,7 @@ from roughcontact.kernels import loader
 from roughcontact.solver import inner_operator as drivers, tuning
 from roughcontact.solver.active_set import ActiveSet
 from roughcontact.solver.conjugate_gradients import conjugate_gradients
-from roughcontact.solver.inner_operator import FullGrid, InnerOperator, inner_operator_on
+from roughcontact.solver.inner_operator import FullGrid, InnerOperator, first_product, inner_operator_on
 from roughcontact.solver.inner_product import Measure
 from roughcontact.solver.vectors import vectors_on
 
@@ -211,3 +211,18 @@ def test_only_a_truncated_inverse_is_corrected_for_its_edges():
     assert FullGrid(plane).diagonal_correction > 0
     assert FullGrid(ring).local_inverse is None
     assert FullGrid(ring).diagonal_correction == 0
+
+
+@pytest.mark.parametrize(
+    ("make", "exact"), [(lambda body: body, False), (Plain, True)], ids=["single", "plain"]
+)
+def test_the_first_product_is_in_single_precision_where_the_operator_allows_it(make, exact):
+    """Many cells, which no tiles replace: the difference is that of single precision."""
+    body = make(rc.half_space(rc.Grid((70, 70), 1.0), 2.0))
+    pressure = np.random.default_rng(3).random((70, 70))
+    found, is_exact = first_product(body, pressure)
+    assert is_exact == exact
+    expected = body.apply(pressure)
+    off = np.abs(found - expected).max() / np.abs(expected).max()
+    assert (off == 0) == exact
+    assert off < 1e-6
