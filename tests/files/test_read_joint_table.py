@@ -62,3 +62,17 @@ def test_reflections_and_their_errors_are_ratios(tmp_path):
 def test_a_last_line_without_an_end_is_reported(tmp_path):
     with pytest.warns(rc.SurfaceWarning, match="may be cut short"):
         read(tmp_path, "pressure [MPa], stiffness [GPa/mm]\n5, 11\n10, 21")
+
+
+@pytest.mark.parametrize(
+    ("quantity", "head", "option"),
+    [("stiffness", "stiffness [N/um/mm^2]", "errors"), ("closure", "closure [um]", "resolution")],
+)
+def test_a_table_without_errors_names_the_option_that_gives_them(tmp_path, quantity, head, option):
+    path = tmp_path / "joint.csv"
+    path.write_text(f"pressure [MPa], {head}\n7, 1.0\n15, 1.3\n")
+    found = rc.read_joint_table(path, quantity)
+    with pytest.raises(
+        ValueError, match=f"no column of errors, and `{option}` is not given.*give `{option}`"
+    ):
+        _ = found.errors
