@@ -256,7 +256,7 @@ def test_a_preload_is_judged_after_the_pull_off_only_and_not_where_it_holds_all(
     pressed = rc.press(ball(40), 1.0, depth=1.0)
     held, off = rc.detachment_path(pressed, 1.0, depths=[0.9, -100.0])
     assert held.contact.any()
-    assert not held.preload_too_small
+    assert held.preload_too_small is False
     assert off.preload_too_small
     disc = rc.shapes.flat_disc(rc.Grid((14, 14), 2 / 12), radius=1.0)
     assert not pulled(disc, 0.1).preload_too_small  # no preload could hold more than all measured cells

@@ -76,3 +76,13 @@ def test_a_free_half_space_of_square_cells_keeps_the_order_of_gaps(shape):
 def test_a_body_that_has_nothing_but_a_large_matrix_is_refused():
     with pytest.raises(ValueError, match=r"6400 cells are too many \(at most 6000\)"):
         elastic_form(rc.half_space(rc.Grid((80, 80), 1.0, (True, False)), 1.0))
+
+
+@pytest.mark.parametrize(
+    "body", [rc.half_space(rc.Grid((3, 4), (0.5, 0.25)), 2.0), rc.ring(rc.RadialGrid.uniform(5, 2.0), 2.0)]
+)
+def test_many_integrals_at_once_are_those_one_by_one(body):
+    form = elastic_form(body)
+    first, second = (np.random.default_rng(k).random((n, *form.shape)) for k, n in enumerate((2, 3)))
+    expected = [[form.dot(a, b) for b in second] for a in first]
+    np.testing.assert_allclose(form.dots(first, second), expected, rtol=1e-14)

@@ -55,6 +55,17 @@ def test_the_radius_of_a_rough_tip_is_that_of_the_tip_and_of_a_sphere_that_of_th
     assert summit(disc, SOFT).shallow
 
 
+def test_the_radius_is_the_same_in_any_unit():
+    """Of a rough tip whose contact reaches half as far as its map, in metres and in nanometres."""
+    grid = rc.Grid((64, 64), 1e-9)
+    roughness = rc.self_affine(grid, 0.8, rms=0.3e-9, rng=np.random.default_rng(1))
+    tip = rc.shapes.paraboloid(grid, 4 * R) + roughness
+    large = rc.Surface(1e9 * tip.heights, rc.Grid((64, 64), 1.0))
+    for modulus in (SOFT, STIFF):
+        found = summit(large, modulus, 1e9 * W).radius
+        assert found == pytest.approx(1e9 * summit(tip, modulus).radius, rel=1e-9)
+
+
 @pytest.mark.parametrize("line", [False, True])
 def test_contacts_and_preloads_are_those_of_the_curve_of_force_against_radius(line):
     def hertz(a):

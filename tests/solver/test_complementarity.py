@@ -12,7 +12,7 @@ import roughcontact as rc
 from libraries import LIBRARIES
 from roughcontact.contact.press import solve
 from roughcontact.contact.problem import ContactProblem
-from roughcontact.solver.complementarity import FINEST, NEAR, _pressed_by_rounding, added_stiffness
+from roughcontact.solver.complementarity import FINEST, MANY, NEAR, _pressed_by_rounding, added_stiffness
 
 MODULUS = 3e9
 STEP = 2e-7
@@ -250,3 +250,10 @@ def test_what_a_cell_adds_is_bounded_by_pressed_cells_as_near_on_either_side(axi
         assert added(away) == pytest.approx(added(-away), rel=1e-12)
         assert added(away) < alone
     assert added(NEAR + 1) == added(-NEAR - 1) == alone
+
+
+def test_more_than_three_hundred_cells_matter_unasked():
+    operator, pressed = rc.half_space(rc.Grid((18, 18), 1.0), 2.0), np.zeros((18, 18))
+    for number, infinite in ((MANY, False), (MANY + 1, True)):
+        weak = np.arange(18 * 18).reshape(18, 18) < number
+        assert np.isinf(added_stiffness(operator, pressed, weak)) == infinite

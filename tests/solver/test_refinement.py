@@ -74,6 +74,13 @@ def test_a_sum_that_reduces_no_residual_stagnates():
     assert len(inner) > 1
 
 
+def test_a_sum_that_halves_no_residual_stagnates():
+    """One that is three times too large leaves two thirds of the error: tens of rounds would end it."""
+    state, inner = corrected(2.0)
+    assert state.status is Status.STAGNATED
+    assert 1 < len(inner) < 6
+
+
 def test_a_solver_that_gives_up_says_why():
     state, inner = corrected(1e-3, rc.PolonskyKeer(max_steps=3))
     assert state.status is Status.MAX_STEPS

@@ -9,6 +9,7 @@ from scipy.interpolate import BSpline
 import roughcontact as rc
 from roughcontact.halfspace.sums import local_inverse
 from roughcontact.halfspace.sums.mesh import SPLINE_ORDER, _spline
+from roughcontact.halfspace.sums.particle_mesh import SHORT_RANGE
 from roughcontact.halfspace.sums.tiles import SIDE, Tiles
 from roughcontact.kernels import loader
 from roughcontact.kernels.active_cells import ActiveCells, with_margins
@@ -184,3 +185,11 @@ def test_the_splines_are_those_of_the_recursion():
     beyond = SPLINE_ORDER / 2 + np.array([0.0, 0.1, 7.0])
     assert not _spline(beyond).any()
     assert not _spline(-beyond).any()
+
+
+def test_a_period_of_at_least_all_near_tiles_has_a_mesh():
+    """Tiles near in both directions and its own: one tile less would be its own image."""
+    near = (2 * SHORT_RANGE - 1) * SIDE
+    for cells, possible in ((near, True), (near - SIDE, False), (near + 1, False)):
+        body = rc.half_space(rc.Grid((cells, near), 1.0, periodic=True), 1.0)
+        assert (body.capabilities.particle_mesh() is not None) == possible
