@@ -75,7 +75,7 @@ class Tab:
         before = time.monotonic() + PATIENCE
         while not holds():
             assert time.monotonic() < before, f"{what}: {self.text('said')!r} {self.told}"
-            self.page.wait_for_timeout(50)
+            self.page.wait_for_timeout(20)
 
     def drop(self, name, content):
         """Drop a file, and wait for its map or for the reason why there is none."""

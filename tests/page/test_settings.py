@@ -63,7 +63,7 @@ class Person:
         before = time.monotonic() + PATIENCE
         while self.page.evaluate(WAITING):
             assert time.monotonic() < before, self.page.locator("#said").inner_text()
-            self.page.wait_for_timeout(50)
+            self.page.wait_for_timeout(20)
 
     def field(self, name):
         return self.page.locator(f'[id="{name}"]')
@@ -337,5 +337,5 @@ def test_every_field_has_a_name_and_every_text_is_readable(person, part):
                 person.page.evaluate("document.documentElement.scrollWidth") != width
             ):  # something sticks out
                 assert time.monotonic() < before, (theme, width)
-                person.page.wait_for_timeout(50)
+                person.page.wait_for_timeout(20)
             assert person.page.evaluate(FAINT) == [], (theme, width)

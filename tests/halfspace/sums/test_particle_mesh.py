@@ -187,6 +187,7 @@ def test_the_splines_are_those_of_the_recursion():
     assert not _spline(-beyond).any()
 
 
+@pytest.mark.skipif(not loader.is_available(), reason="no machine code here")
 def test_a_period_of_at_least_all_near_tiles_has_a_mesh():
     """Tiles near in both directions and its own: one tile less would be its own image."""
     near = (2 * SHORT_RANGE - 1) * SIDE
