@@ -74,7 +74,8 @@ class Tab:
         """Wait until something holds."""
         before = time.monotonic() + PATIENCE
         while not holds():
-            assert time.monotonic() < before, f"{what}: {self.text('said')!r} {self.told}"
+            said = f"{self.text('said')!r} {self.text('curve_said')!r} {self.told}"
+            assert time.monotonic() < before, f"{what}: {said}"
             self.page.wait_for_timeout(20)
 
     def drop(self, name, content):
