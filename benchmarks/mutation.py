@@ -326,13 +326,10 @@ def main() -> None:
     if chosen.report:
         report(rows)
         return
-    wanted = [
-        mutant
-        for mutant in drawn(tuple(chosen.rooms.split(",")), chosen.count, chosen.seed)
-        if (
-            rows.get(mutant.name, {}).get("result") == "survived" if chosen.whole else mutant.name not in rows
-        )
-    ]
+    results = {name: row["result"] for name, row in rows.items()}
+    sought = "survived" if chosen.whole else None
+    sample = drawn(tuple(chosen.rooms.split(",")), chosen.count, chosen.seed)
+    wanted = [mutant for mutant in sample if results.get(mutant.name) == sought]
     benches: SimpleQueue[Bench] = SimpleQueue()
     for number in range(chosen.processes):
         bench = Bench(chosen.store / f"copy{number}")

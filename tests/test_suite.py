@@ -5,6 +5,7 @@ import json
 import math
 import re
 import sys
+import weakref
 from pathlib import Path
 from types import SimpleNamespace
 
@@ -274,6 +275,29 @@ def test_a_program_that_fails_or_differs_is_reported(suite):
     assert rows[1]["trouble"] == "failed: RuntimeError: no licence"
     assert rows[2]["force_error"] == pytest.approx(0.01)
     assert rows[2]["setting"] < 1e-11 < rows[3]["setting"] == 1e-8  # tightened in vain, and not at all
+
+
+def test_times_are_taken_without_the_kernel_of_the_judge(suite, monkeypatch):
+    """It is made after the first answer, and nothing holds it when the rounds begin."""
+    case = suite.cases.CASES["sphere"]
+    ours, made, there = suite.programs.load("roughcontact"), [], []
+    judge_of, solve = suite.measure.judge_of, ours.solver("normal")
+
+    def noted(kind, problem):
+        judge = judge_of(kind, problem)
+        made.append(weakref.ref(judge))
+        return judge
+
+    def watched(problem, tolerance):
+        there.append([judge() is not None for judge in made])
+        return solve(problem, tolerance)
+
+    monkeypatch.setattr(suite.measure, "judge_of", noted)
+    monkeypatch.setattr(type(ours), "solver", lambda program, kind: watched)
+    [row] = suite.measure.compare(case, case(64, 0), [ours], {}, 1)
+    assert row["residual"] <= case.tolerance
+    assert there[0] == []
+    assert there[-1] == [False]
 
 
 def test_the_memory_is_that_of_a_process_of_its_own(suite):

@@ -42,6 +42,7 @@ class Entry:
     tolerance: float  # in the program's own measure
     answer: dict[str, Any] = field(default_factory=dict)
     certificate: Certificate | None = None
+    uncertified: str | None = None  # why none was made
     difference: float | None = None  # of the answer, from the reference, over the reference's largest
     compared_at: float | None = None
     seconds: list[float] = field(default_factory=list)  # of rounds with the cores to itself
@@ -64,6 +65,7 @@ class Entry:
             "median": statistics.median(self.seconds) if self.seconds else None,
         }
         values |= {"disturbed": self.disturbed, "memory": self.memory, "trouble": self.trouble}
+        values["uncertified"] = self.uncertified
         values |= {"difference": self.difference, "compared_at": self.compared_at}
         if found is not None:
             values |= {"residual": found.residual, "force_error": found.force_error, "cells": found.cells}
@@ -105,10 +107,9 @@ def compare(
         if entry.certificate and entry.certificate.error <= case.tolerance:
             settings[entry.program.name] = entry.tolerance
     _check_agreement(entries, problem, judge, case)
-    uncertified = reason if entries and isinstance(reason := judge(), str) else None
     judge.cache_clear()
     _take_times(entries, problem, repeats)
-    rows = [entry.row() | {"uncertified": uncertified} for entry in entries]
+    rows = [entry.row() for entry in entries]
     if entries and "pressure" in entries[0].answer:
         rows[0]["product_seconds"] = product_seconds(problem, entries[0].answer["pressure"])
     return rows
@@ -128,7 +129,10 @@ def _certify(entry: Entry, problem: Problem, judge: Judges, goal: float) -> None
     for _ in range(TRIES):
         try:
             entry.answer, *_ = _run(entry, problem, entry.tolerance)
-            if callable(certify := judge()):
+            certify = judge()
+            if isinstance(certify, str):
+                entry.uncertified = certify
+            else:
                 entry.certificate = certify(entry.answer)
         except NotImplementedError:
             raise

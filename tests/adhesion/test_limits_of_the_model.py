@@ -56,7 +56,7 @@ def test_the_radius_of_a_rough_tip_is_that_of_the_tip_and_of_a_sphere_that_of_th
 
 
 def test_the_radius_is_the_same_in_any_unit():
-    """Of a rough tip whose contact reaches half as far as its map, in metres and in nanometres."""
+    """Of a rough tip, in metres and in nanometres."""
     grid = rc.Grid((64, 64), 1e-9)
     roughness = rc.self_affine(grid, 0.8, rms=0.3e-9, rng=np.random.default_rng(1))
     tip = rc.shapes.paraboloid(grid, 4 * R) + roughness

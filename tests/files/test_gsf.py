@@ -5,6 +5,7 @@ import pytest
 
 import roughcontact as rc
 from instruments import gsf, hills
+from roughcontact.files.gsf import _count
 from roughcontact.files.read import channels, read_line
 
 Z = hills() * 1e-6
@@ -112,3 +113,8 @@ def test_its_channel_is_listed(put):
 def test_damage_is_refused(put, damage, message):
     with pytest.raises(rc.ReadError, match=message):
         rc.read(put("a.gsf", damage(gsf(Z))))
+
+
+@pytest.mark.parametrize("zeros", [1, 5000])  # Python converts no text of more than 4300 digits
+def test_zeros_before_a_number_of_points_do_not_count(zeros):
+    assert _count({"XRes": "0" * zeros + "36"}, "XRes") == 36

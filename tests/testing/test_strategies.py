@@ -13,7 +13,7 @@ MODULUS = 3e9
 
 
 def find(strategy, wanted):
-    """Return an example, not the simplest one; a hundred tries, each of which finds one as often as not."""
+    """Return the first example of a hundred tries, which need not be the simplest one."""
     few = settings(max_examples=100, phases=[hypothesis.Phase.generate], database=None)
     return hypothesis.find(strategy, wanted, settings=few)
 

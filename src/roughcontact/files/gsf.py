@@ -69,10 +69,10 @@ def _fields(header: bytes) -> dict[str, str]:
 
 def _count(fields: dict[str, str], name: str) -> int:
     text = fields.get(name, "")
-    # A positive whole number of up to ten digits.
-    if re.fullmatch("0*[1-9][0-9]{0,9}", text) is None:
+    digits = text.lstrip("0")
+    if re.fullmatch("[1-9][0-9]{0,9}", digits) is None:
         raise ContentError(f"its header states {text!r} for {name}", _AGAIN)
-    return int(text)
+    return int(digits)
 
 
 def _side(fields: dict[str, str], name: str) -> float | None:
