@@ -468,6 +468,18 @@ def test_a_row_of_the_points_shows_its_contact(tab, part):
     tab.wait("() => document.querySelector('#points tr[aria-current] button') === document.activeElement")
 
 
+def test_a_late_stop_of_a_request_before_a_reload_stops_none_after_it(desk, tab, part):
+    with tab.page.expect_request("**/request?*") as first:
+        assert tab.drop("part.npz", part)
+    tab.settled()
+    asked = json.loads(first.value.post_data)
+    stop = first.value.url.replace("/request?", "/stop?") + f"&queue={asked['queue']}&key={asked['key']}"
+    assert tab.page.evaluate("async (url) => (await fetch(url, {method: 'POST'})).ok", stop)
+    desk.show(tab)
+    assert tab.drop("part.npz", part)
+    tab.settled()
+
+
 def test_a_theory_is_drawn_or_says_why_it_is_not(tab, part):
     assert tab.drop("part.npz", part)
     tab.settled()

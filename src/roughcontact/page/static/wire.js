@@ -34,7 +34,8 @@ export async function upload(file) {
 
 // Send a request; every message is passed to `heard(header, data)` as it comes, and the last one is returned.
 export function request(queue, job, recipe, more, heard) {
-  const key = String(++count);
+  // Not that of a request before a reload, whose late stop the session may hold.
+  const key = `${performance.timeOrigin}-${++count}`;
   const body = JSON.stringify({ queue, job, recipe, more, key });
   const stop = () => asked(`/stop?session=${session}&queue=${queue}&key=${key}`, { method: "POST" });
   return { stop, ended: listen(body, heard) };
