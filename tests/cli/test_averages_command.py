@@ -304,7 +304,7 @@ def test_a_study_without_results_is_refused(invoke, tmp_path):
 
 
 def test_the_example_of_the_page_gives_numbers(invoke, tmp_path):
-    """With two samples of three exponents: the window of a law depends on the means, and these on the samples, hardly."""
+    """With two samples of three exponents: the window depends on the means, and these on the samples, hardly."""
     text = PAGE.read_text(encoding="utf-8").partition("```toml\n")[2].partition("```")[0]
     example = tomllib.loads(text)
     assert example["case"] == "curve"
