@@ -4,6 +4,7 @@ import json
 
 import pytest
 
+from pictures import without_fields
 from roughcontact import viscoelastic
 from roughcontact.citing.bibliography import references
 
@@ -52,7 +53,8 @@ def test_references_follow_the_answer(command, invoke, rough, tmp_path, monkeypa
     monkeypatch.chdir(tmp_path)
     viscoelastic.standard_solid(1e9, 2e9, 1.0).write("rubber.toml")
     out = tmp_path / "out"
-    answer = invoke(*command.split(), rough, *LINES[command], "--cite", "--out", out)
+    with without_fields():
+        answer = invoke(*command.split(), rough, *LINES[command], "--cite", "--out", out)
     assert answer.exit_code == 0, answer.stderr
     before, _, cited = answer.stdout.partition("\nTo cite:\n")
     assert before

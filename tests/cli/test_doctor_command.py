@@ -86,20 +86,32 @@ def test_a_package_that_an_extra_lacks_is_named_with_what_it_is_for(invoke, quic
 
 
 @pytest.mark.parametrize(
-    ("package", "text", "problem", "check"),
+    ("broken", "check"),
     [
         (
-            *("numpy", "raise ImportError('torn apart')"),
-            *("the package numpy cannot be loaded (torn apart): run: ", "WRONG"),
+            [
+                (
+                    *("numpy", "raise ImportError('torn apart')"),
+                    "the package numpy cannot be loaded (torn apart): run: ",
+                )
+            ],
+            "WRONG",
         ),
-        ("threadpoolctl", "1 / 0", "threadpoolctl: ZeroDivisionError: division by zero", "WRONG"),
-        ("psutil", "import gone_with_it", "the package gone_with_it is not installed: run: ", "right"),
-        ("llvmlite", "raise OSError('no libffi')", "llvmlite: OSError: no libffi", "right"),
+        ([("threadpoolctl", "1 / 0", "threadpoolctl: ZeroDivisionError: division by zero")], "WRONG"),
+        (
+            [
+                ("psutil", "import gone_with_it", "the package gone_with_it is not installed: run: "),
+                ("llvmlite", "raise OSError('no libffi')", "llvmlite: OSError: no libffi"),
+            ],
+            "right",
+        ),
     ],
+    ids=["numpy", "threadpoolctl", "two that are no part of the check"],
 )
-def test_a_broken_package_is_named_and_all_else_is_told(tmp_path, package, text, problem, check):
-    (tmp_path / package).mkdir()
-    (tmp_path / package / "__init__.py").write_text(text)
+def test_a_broken_package_is_named_and_all_else_is_told(tmp_path, broken, check):
+    for package, text, _ in broken:
+        (tmp_path / package).mkdir()
+        (tmp_path / package / "__init__.py").write_text(text)
     (tmp_path / "torch.py").write_text("raise ImportError('sooner than the true one')")
     paths = [str(tmp_path), str(Path(rc.__file__).parents[1])]
     answer = subprocess.run(
@@ -112,9 +124,10 @@ def test_a_broken_package_is_named_and_all_else_is_told(tmp_path, package, text,
     )
     found = json.loads(answer.stdout)
     assert answer.returncode == MISSED, answer.stderr
-    assert any(each.startswith(problem) for each in found["problems"]), found["problems"]
+    for _, _, problem in broken:
+        assert any(each.startswith(problem) for each in found["problems"]), found["problems"]
     assert found["python"]["python"].startswith(sys.version.partition(" ")[0])
-    assert ("free" in found["memory"]) == (package not in ("numpy", "psutil"))
+    assert ("free" in found["memory"]) == (broken[0][0] not in ("numpy", "psutil"))
     assert found["check"]["sphere beside Hertz"] == check
 
 

@@ -173,13 +173,10 @@ def part(tmp_path_factory):
     return path
 
 
-def test_a_command_reports_beside_its_answer(part):
-    command = [sys.executable, "-m", "roughcontact", "curve", str(part), "--modulus", "110GPa"]
-    options = ["--pressures", "1MPa:100MPa:5", "--json", "--progress"]
-    done = [
-        subprocess.run([*command, *options, form], capture_output=True, text=True, check=True)
-        for form in ("json", "none")
-    ]
+def test_a_command_reports_beside_its_answer(part, invoke):
+    command = ["curve", part, "--modulus", "110GPa", "--pressures", "1MPa:100MPa:5", "--json", "--progress"]
+    done = [invoke(*command, form) for form in ("json", "none")]
+    assert [each.exit_code for each in done] == [0, 0]
     answers = [json.loads(each.stdout) for each in done]
     assert answers[0] == answers[1]
     loads = [json.loads(line) for line in done[0].stderr.splitlines() if line.startswith("{")]

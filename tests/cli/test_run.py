@@ -1,6 +1,7 @@
 """The command ``run``: jobs from files, results that are repeated, and loads that are kept."""
 
 import json
+import shutil
 import signal
 from pathlib import Path
 
@@ -45,9 +46,24 @@ def record(name="job/curve.json"):
     return json.loads(Path(name).read_text(encoding="utf-8"))
 
 
+@pytest.fixture(scope="module")
+def answered(tmp_path_factory):
+    """A folder with the job and its answer."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.chdir(tmp_path_factory.mktemp("answered"))
+        written()
+        ran("job.toml")
+        return Path.cwd()
+
+
+@pytest.fixture
+def kept(answered):
+    """Lay a copy of the job and its answer into the folder of a test."""
+    shutil.copytree(answered, Path(), dirs_exist_ok=True)
+
+
+@pytest.mark.usefixtures("kept")
 def test_an_answer_carries_its_recipe_and_is_repeated():
-    written()
-    ran("job.toml")
     recipe = record()["recipe"]
     assert recipe["job"] == "curve"
     assert recipe["loads"] == {"forces": "100N:1kN:4"}
@@ -58,9 +74,8 @@ def test_an_answer_carries_its_recipe_and_is_repeated():
     assert sorted(path.name for path in Path().iterdir()) == ["job", "job.toml"]
 
 
+@pytest.mark.usefixtures("kept")
 def test_a_number_that_differs_is_named():
-    written()
-    ran("job.toml")
     changed = record()
     changed["depth"][2] *= 1 + 1e-6
     changed["spots"] = changed["spots"][:2]
@@ -98,17 +113,20 @@ def test_loads_that_are_stored_are_kept(monkeypatch):
         ("forces", "pressures"),
     ],
 )
+@pytest.mark.usefixtures("kept")
 def test_of_another_contact_nothing_is_kept(old, new):
-    written(JOB)
-    ran("job.toml")
     text = JOB.replace(old, new)
     written(text.replace("100N:1kN", "100MPa:1GPa") if new == "pressures" else text)
     assert "are kept" not in ran("job.toml").stderr
 
 
+@pytest.mark.usefixtures("kept")
+def test_of_the_same_contact_all_is_kept():
+    assert "4 of 4 loads of the same recipe are in job already" in ran("job.toml").stderr
+
+
+@pytest.mark.usefixtures("kept")
 def test_a_damaged_answer_is_replaced():
-    written()
-    ran("job.toml")
     before = record()
     Path("job/curve.nc").write_bytes(b"damaged")
     assert "are kept" not in ran("job.toml").stderr

@@ -10,12 +10,16 @@ from roughcontact.study.executors.worker import WorkersError
 GRID, LINE = rc.Grid((12, 16), 1e-6), rc.Grid((24,), 1e-6)
 ROUGH = [rc.self_affine(GRID, 0.8, 1e-7, np.random.default_rng(k)) for k in range(5)]
 FORCE = 1e-3
+LOADS = ({"depth": 1e-7}, {"force": FORCE}, {"pressure": 1e6})
 
 
 class Backwards:
     """An executor that is done with the last part first."""
 
     workers = 1
+
+    def __str__(self):
+        return "backwards"
 
     def results(self, run_task, tasks):
         yield from map(run_task, reversed(list(tasks)))
@@ -35,9 +39,14 @@ def assert_same(found, expected):
 
 
 @pytest.mark.parametrize(
-    "executor", [None, Backwards(), rc.study.Processes(2)], ids=["few", "backwards", "two"]
+    ("executor", "load"),
+    [
+        *((executor, load) for executor in (None, Backwards()) for load in LOADS),
+        # Workers take a load as it is, and are slow to start.
+        (rc.study.Processes(2), LOADS[0]),
+    ],
+    ids=str,
 )
-@pytest.mark.parametrize("load", [{"force": FORCE}, {"depth": 1e-7}, {"pressure": 1e6}], ids=str)
 def test_each_is_as_if_pressed_alone(executor, load):
     given = {"modulus": 110e9, "tolerance": 1e-9, "hardness": 3e9, **load}
     solutions = list(rc.press_many(ROUGH, executor=executor, **given))

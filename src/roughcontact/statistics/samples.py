@@ -270,18 +270,19 @@ def summary(
     chosen = [n for n in numbers if set(over) <= set(dataset[n].dims)] if names is None else list(names)
     if unknown := [name for name in chosen if name not in numbers]:
         raise InputError(f"there are no numbers named {unknown[0]!r}; there are {_listed(numbers)}")
-    result = dataset.drop_vars([*dataset.data_vars, *over], errors="ignore")
+    # Assigned together: a dataset looks at all its variables each time that it gets new ones.
+    found: dict[str, xarray.DataArray] = {}
     for name in chosen:
         values = dataset[name]
         if not set(over) <= set(values.dims):
-            result[name] = values
+            found[name] = values
             continue
         if values.dtype.kind == "b" and "case_status" in dataset:
             # False for a missing case is not a result.
             values = values.astype(np.float64).where(dataset["case_status"] == "done")
         for word, statistic in STATISTICS.items():
-            result[f"{name}_{word}"] = statistic(values, over)
-    return result
+            found[f"{name}_{word}"] = statistic(values, over)
+    return dataset.drop_vars([*dataset.data_vars, *over], errors="ignore").assign(found)
 
 
 def dimensions(samples: str | Sequence[str]) -> tuple[str, ...]:
