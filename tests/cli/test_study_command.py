@@ -242,6 +242,7 @@ def done():
 @pytest.mark.parametrize(
     ("number", "status", "words", "options"),
     [
+        (signal.SIGINT, 130, "Stopped; every finished case is stored.", ["--executor", "serial"]),
         (signal.SIGINT, 130, "Stopped; every finished case is stored.", ["--workers", "2"]),
         (signal.SIGTERM, 143, "Every finished case is stored.", ["--executor", "serial"]),
     ],

@@ -142,8 +142,7 @@ def home(tmp_path_factory):
 def found(home):
     """The answers of a copy of the package in which the step is declared."""
     copy = home / "src" / "roughcontact"
-    # With what is compiled of unchanged files, except what another process is writing now.
-    shutil.copytree(HOME / "src" / "roughcontact", copy, ignore=shutil.ignore_patterns("*.pyc.*"))
+    shutil.copytree(HOME / "src" / "roughcontact", copy, ignore=shutil.ignore_patterns("__pycache__"))
     (copy / "surface" / "preparation" / "medians.py").write_text(NUMERICS, encoding="utf-8")
     for file, place, text in [*METHOD, FIELD]:
         inserted(copy / file, place, text)

@@ -28,12 +28,12 @@ def truth(tmp_path_factory):
     return exported(tmp_path_factory.mktemp("serial"), Serial())
 
 
-def test_processes_of_which_one_is_killed_export_what_serial_execution_does(truth, tmp_path):
+def test_processes_that_are_killed_at_random_export_what_serial_execution_does(truth, tmp_path):
     rng, count = random.Random(3), iter(range(210))
-    moment = rng.randrange(200)
+    kills = set(rng.sample(range(200), 2))
 
     def kill(_):
-        if next(count) == moment:
+        if next(count) in kills:
             rng.choice(workers()).kill()
 
     assert exported(tmp_path, Processes(2), kill) == truth

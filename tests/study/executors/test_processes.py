@@ -35,7 +35,7 @@ def nothing_is_left():
 def test_results_are_those_of_serial_execution_though_workers_are_killed_at_random():
     rng = random.Random(1)
     given = tasks(NUMBERS, [{"value": i, "seconds": 0.002} for i in range(200)])
-    kills, results = set(rng.sample(range(190), 3)), []
+    kills, results = set(rng.sample(range(190), 5)), []
     for result in Processes(2).results(run_task, given):
         results.append(result)
         if len(results) in kills:
