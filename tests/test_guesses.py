@@ -230,7 +230,7 @@ def test_a_surface_takes_what_a_grid_takes_as_spacing(spacing):
 
 def test_units_of_a_spacing_are_read():
     pint, units = pytest.importorskip("pint"), pytest.importorskip("astropy.units")
-    micron = pint.UnitRegistry().Quantity(1.0, "um")
+    micron = pint.get_application_registry().Quantity(1.0, "um")
     for length in (micron, 1.0 * units.um):
         assert rc.Surface(N, length).grid.spacing == pytest.approx((1e-6, 1e-6))
         assert rc.Grid((4, 8), size=8 * length).spacing == pytest.approx((1e-6, 1e-6))

@@ -10,7 +10,7 @@ import xarray
 import roughcontact as rc
 from roughcontact.units import PLAIN, in_si
 
-U = pint.UnitRegistry()
+U = pint.get_application_registry()
 GRID = rc.Grid((4, 6), 1e-6)
 HEIGHTS = np.arange(24.0).reshape(4, 6)
 

@@ -3,7 +3,7 @@
 python tests/without_posix.py [FILE...]      prints a line for each that fails, and ends with 1 if one does; so for FILE
 
 Importing a file of tests runs its decorators and lists of parameters, which is where a name that is not there stops
-the collection. Libraries are imported before: they look at the system by themselves.
+the collection. The libraries that these files import are imported before: they look at the system by themselves.
 """
 
 import ast
@@ -87,13 +87,18 @@ def modules() -> list[str]:
 
 
 def libraries(path: Path) -> set[str]:
-    """Return what a file imports that is neither ours nor POSIX alone, wherever in the file."""
+    """Return what a file asks for as it is imported, outside its functions, that is neither ours nor POSIX alone."""
     found = set()
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+    nodes: list[ast.AST] = list(ast.parse(path.read_text(encoding="utf-8")).body)
+    for node in nodes:
         if isinstance(node, ast.Import):
             found |= {alias.name for alias in node.names}
         elif isinstance(node, ast.ImportFrom) and node.module:
             found.add(node.module)
+        elif isinstance(node, ast.Call) and getattr(node.func, "attr", "") == "importorskip":
+            found.add(ast.literal_eval(node.args[0]))
+        elif not isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.Lambda):
+            nodes.extend(ast.iter_child_nodes(node))
     here = {each.stem for folder in (HOME, THESIS / "tests") for each in folder.iterdir()}
     here |= {"roughcontact", "roughcontact_thesis", *MODULES.split()}
     return {name for name in found if name.split(".")[0] not in here}

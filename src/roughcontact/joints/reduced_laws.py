@@ -161,8 +161,9 @@ def jenkins_elements(
     elements = JenkinsElements(stiffness, slip, pressure, {})
     smooth = replace(law, normal=replace(law.normal, cells=np.full_like(law.normal.cells, np.inf)))
     s = np.geomspace(min(_RESOLVED * slip[0], last), last, _AMPLITUDES)
-    loss = np.array([smooth.loss(pressure, displacement=each) for each in s])
-    pairs = {"traction": (elements.traction(s), law.traction(s, pressure)), "loss": (elements.loss(s), loss)}
+    traction = law.traction(s, pressure)
+    loss = np.array([smooth.loss(pressure, traction=each) for each in traction])
+    pairs = {"traction": (elements.traction(s), traction), "loss": (elements.loss(s), loss)}
     return replace(elements, misfit={name: float(abs(a / b - 1).max()) for name, (a, b) in pairs.items()})
 
 
