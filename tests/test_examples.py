@@ -104,29 +104,36 @@ def check_contact_challenge(stdout, folder):
     assert "range 100.00 nm" in answer.stdout
 
 
-# Script -> its arguments and the check of its number.
+# Script -> its arguments, where FOLDER is an empty folder, and the check of its number.
 CHECKS = {
     "contact_challenge.py": (["--side", "2.5e-7", "--cells", "48"], check_contact_challenge),
+    "demo.py": (["--out", "FOLDER"], check_demo),
     "partial_slip.py": ([], check_partial_slip),
 }
 
 
 def test_every_example_is_checked():
-    assert {path.name for path in EXAMPLES.glob("*.py")} == {*CHECKS, "demo.py"}
+    assert {path.name for path in EXAMPLES.glob("*.py")} == set(CHECKS)
 
 
 @pytest.mark.parametrize("name", CHECKS)
 def test_example(name, tmp_path):
     arguments, check = CHECKS[name]
-    command = [sys.executable, str(EXAMPLES / name), *arguments]
-    answer = subprocess.run(command, capture_output=True, encoding="utf-8", cwd=tmp_path, check=False)
+    words = [str(tmp_path) if word == "FOLDER" else word for word in arguments]
+    answer = subprocess.run(
+        [sys.executable, str(EXAMPLES / name), *words],
+        capture_output=True,
+        encoding="utf-8",
+        cwd=tmp_path,
+        check=False,
+    )
     assert answer.returncode == 0, answer.stderr
     check(answer.stdout, tmp_path)
 
 
 @pytest.fixture
 def demo(undrawn, tmp_path, monkeypatch):
-    """Run the demo in this process and in an empty folder, without its pictures."""
+    """Run the demo in this process and in an empty folder; `test_example` starts it as its users do."""
     monkeypatch.chdir(tmp_path)
 
     def run(*words):
@@ -141,12 +148,6 @@ def demo(undrawn, tmp_path, monkeypatch):
         return SimpleNamespace(returncode=status, stdout=out.getvalue(), stderr=err.getvalue())
 
     return run
-
-
-def test_the_demo(demo, tmp_path):
-    answer = demo("--out", str(tmp_path))
-    assert answer.returncode == 0, answer.stderr
-    check_demo(answer.stdout, tmp_path)
 
 
 def test_the_demo_takes_a_file_of_the_user(demo, tmp_path):

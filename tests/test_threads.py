@@ -586,13 +586,13 @@ def test_a_forked_process_shares_kernels_with_threads_of_its_own():
         def go_on():
             while not done:
                 press()
-        rough = rc.self_affine(rc.Grid((160, 160), 1 / 160, True), 0.8, 0.01, np.random.default_rng(0))
+        rough = rc.self_affine(rc.Grid((192, 192), 1 / 192, True), 0.8, 0.01, np.random.default_rng(0))
         done, known = [], press()
         beside = threading.Thread(target=go_on, daemon=True)
         beside.start()
-        codes = [ended(fork(lambda: press() == known)) for _ in range(5)]
+        codes = [ended(fork(lambda: press() == known)) for _ in range(10)]
         done.append(True)
         beside.join()
-        assert codes == [0] * 5, codes
+        assert codes == [0] * 10, codes
         """
     )
