@@ -67,7 +67,7 @@ class Tab:
         return self.page.locator(f"#{name}").text_content()  # folded away or not
 
     def wait(self, condition, argument=None):
-        """Wait for a condition in the page, which is asked there: each question from here costs more than the answer."""
+        """Wait for a condition in the page; it is asked there, since each question from here costs much."""
         # The page's policy lets no function wait there that is given as words.
         asked = f"""async ([given, patience]) => {{
           const holds = {condition};
