@@ -137,13 +137,11 @@ def opened_again(page, address):
     A new session takes two processes, each of which presses maps before its first request: most of the time of a test.
     """
     if page.url != "about:blank":
-        page.goto(
-            address.partition("?")[0] + "page.css"
-        )  # the page is left, and notes its session and its state
+        # The page notes its session and its state when it is left; this listener comes after its own.
         page.evaluate(
-            """() => {
+            """() => addEventListener("pagehide", () => {
               const { session } = JSON.parse(sessionStorage.getItem("roughcontact"));
               sessionStorage.setItem("roughcontact", JSON.stringify({ session }));
-            }"""
+            })"""
         )
     page.goto(address)

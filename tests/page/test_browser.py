@@ -67,16 +67,29 @@ class Tab:
         return self.page.locator(f"#{name}").text_content()  # folded away or not
 
     def wait(self, condition, argument=None):
-        """Wait for a condition in the page; its policy lets no function wait there that is given as words."""
-        self.until(lambda: self.page.evaluate(condition, argument), f"{condition} {argument}")
+        """Wait for a condition in the page; it is asked there, since each question from here costs much."""
+        # The page's policy lets no function wait there that is given as words.
+        asked = f"""async ([given, patience]) => {{
+          const holds = {condition};
+          for (const before = Date.now() + patience; Date.now() < before; ) {{
+            if (holds(given)) return true;
+            await new Promise((next) => setTimeout(next, 20));
+          }}
+          return false;
+        }}"""
+        assert self.page.evaluate(asked, [argument, 1000 * PATIENCE]), self.said(f"{condition} {argument}")
 
     def until(self, holds, what=""):
         """Wait until something holds."""
-        before = time.monotonic() + PATIENCE
+        before, pause = time.monotonic() + PATIENCE, 10.0
         while not holds():
-            said = f"{self.text('said')!r} {self.text('curve_said')!r} {self.told}"
-            assert time.monotonic() < before, f"{what}: {said}"
-            self.page.wait_for_timeout(20)
+            assert time.monotonic() < before, self.said(what)
+            self.page.wait_for_timeout(pause)
+            pause = min(1.5 * pause, 200)  # each look costs as much as a short pause
+
+    def said(self, what):
+        """Return what the page says while something does not hold."""
+        return f"{what}: {self.text('said')!r} {self.text('curve_said')!r} {self.told}"
 
     def drop(self, name, content):
         """Drop a file, and wait for its map or for the reason why there is none."""
@@ -231,7 +244,7 @@ def test_a_load_that_is_written_is_the_one_that_is_pressed(tab, part):
 
 
 def test_points_of_a_curve_arrive_and_stop(tab):
-    tab.example("Large map")
+    tab.example("Joint face")
     tab.settled()
     tab.page.locator("#start").click()
     tab.wait(f"() => ({POINTS})() >= 2")

@@ -60,10 +60,15 @@ class Person:
         self.page = page
 
     def wait(self):
-        before = time.monotonic() + PATIENCE
-        while self.page.evaluate(WAITING):
-            assert time.monotonic() < before, self.page.locator("#said").inner_text()
-            self.page.wait_for_timeout(20)
+        asked = f"""async (patience) => {{
+          const waiting = {WAITING};
+          for (const before = Date.now() + patience; waiting(); ) {{
+            if (Date.now() > before) return false;
+            await new Promise((next) => setTimeout(next, 20));
+          }}
+          return true;
+        }}"""
+        assert self.page.evaluate(asked, 1000 * PATIENCE), self.page.locator("#said").inner_text()
 
     def field(self, name):
         return self.page.locator(f'[id="{name}"]')

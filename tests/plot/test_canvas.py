@@ -30,7 +30,8 @@ def rough(shape: tuple[int, int], periodic: bool = False) -> rc.Surface:
 def overlaps(figure: Figure) -> list[tuple[str, str]]:
     """Return the pairs of texts that are drawn over one another by more than a hair."""
     canvas = FigureCanvasAgg(figure)
-    canvas.draw()  # the layout settles
+    figure.draw_without_rendering()  # the layout settles, once as in a picture that is saved
+    figure.set_layout_engine("none")
     drawn: list[Text] = []
     draw = Text.draw
 

@@ -42,6 +42,6 @@ def folder(kept, tmp_path, monkeypatch):
 
 
 @pytest.fixture
-def command(folder):
-    """Run a line of a shell in this process; the answer has exit_code, stdout and stderr."""
+def command(folder, undrawn):
+    """Run a line of a shell in this process, without its pictures; the answer has exit_code, stdout and stderr."""
     return lambda line: CliRunner().invoke(app, shlex.split(line), env=PLAIN)

@@ -4,8 +4,6 @@ import pytest
 
 from followed import commands, follow_command
 
-pytestmark = pytest.mark.usefixtures("undrawn")
-
 CURVE = "curve rough.npz --modulus 1GPa"
 TWO = f"{CURVE} --forces 1mN,2mN"
 NAMED = "curve rough.npz --materials steel,aluminium --forces 1mN,2mN"

@@ -181,9 +181,9 @@ $ study run done --out other
 ! is the folder of the results itself; leave out --out
 > study run done
 
-$ study run tried.toml --out seeded
+$ {SERIAL} --out seeded
 ! it holds results of a study with the seed 1, not 0; choose another folder
-> study run tried.toml --out another
+> {SERIAL} --out another
 
 $ study average done --out all.txt
 ! give a file .nc (NetCDF) or .csv (a table)
@@ -220,7 +220,7 @@ $ study table loads --at 0
 
 $ study run broken.toml
 ! there is no 'sample': did you mean 'samples'?
-> study run tried.toml
+> {SERIAL}
 """
 
 

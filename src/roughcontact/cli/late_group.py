@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import sys
 from collections.abc import Callable, Iterator, Mapping
+from functools import cache
 from importlib import import_module
 from importlib.util import find_spec
 from inspect import cleandoc
@@ -132,10 +133,16 @@ def _without_types(command: Any, ctx: Any) -> Any:
 
 def _imported(module: str, name: str) -> Any:
     members = vars(import_module(module))
+    return _made(members[_function(name)], module, name)
+
+
+@cache  # a process that calls a command often, such as one of tests, makes it once
+def _made(function: Callable[..., None], module: str, name: str) -> Any:
+    members = vars(import_module(module))
     lines = members["EXAMPLES"][name].strip().split("\n")
     epilog = "\n\n".join(["Examples:" if len(lines) > 1 else "Example:", *lines])
     alone = typer.Typer(add_completion=False, rich_markup_mode="rich")
-    command: Any = grouped(members[_function(name)], members.get("CELLS", {}).get(name))
+    command: Any = grouped(function, members.get("CELLS", {}).get(name))
     alone.command(name, cls=_Command, epilog=epilog)(command)
     found: Any = typer.main.get_command(alone)
     found.more = command.more

@@ -16,7 +16,7 @@ from roughcontact.cli.progress_view import PROGRESS_FORMS, progress_shown
 from roughcontact.cli.verbosity import quietly
 from roughcontact.errors import InputError, placed, within
 from roughcontact.recipe.jobs import JOBS
-from roughcontact.recipe.recipe_fields import Spec, option_of, words_of
+from roughcontact.recipe.recipe_fields import Spec, hints_of, option_of, words_of
 from roughcontact.recipe.source import File
 from roughcontact.recipe.texts import Choice
 
@@ -178,7 +178,7 @@ def grouped(command: Callable[..., None], cells: Cells | None = None) -> Callabl
 def _declared(name: str, kind: Any, declared: Any, panel: str | None) -> Iterator[_Declared]:
     """Yield the options of a parameter: one, or those of its group and of the groups in it."""
     if is_dataclass(kind := _commanded(kind)):
-        hints, panel = get_type_hints(kind), getattr(kind, "TITLE", getattr(kind, "PANEL", None))
+        hints, panel = hints_of(kind), getattr(kind, "TITLE", getattr(kind, "PANEL", None))  # type: ignore[arg-type]  # a class
         for each in fields(kind):
             if each.metadata or is_dataclass(_commanded(hints[each.name])):
                 yield from _declared(each.name, hints[each.name], each, panel)
@@ -273,7 +273,7 @@ def _built(kind: Any, name: str, given: Mapping[str, Any]) -> Any:
     """Return the value of one parameter: the value given, or a group made of such values."""
     if not is_dataclass(kind := _commanded(kind)):
         return tuple(given[name] or ()) if kind == tuple[str, ...] else given[name]
-    hints, parts = get_type_hints(kind), {}
+    hints, parts = hints_of(kind), {}  # type: ignore[arg-type]
     for each in fields(kind):
         if each.name in given or is_dataclass(_commanded(hints[each.name])):
             with within(each.name):
