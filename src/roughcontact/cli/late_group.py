@@ -136,7 +136,7 @@ def _imported(module: str, name: str) -> Any:
     return _made(members[_function(name)], module, name)
 
 
-@cache  # a process that calls a command often, such as one of tests, makes it once
+@cache  # a process may call a command often
 def _made(function: Callable[..., None], module: str, name: str) -> Any:
     members = vars(import_module(module))
     lines = members["EXAMPLES"][name].strip().split("\n")
