@@ -34,7 +34,7 @@ def loop(kind, points):
 
 @pytest.mark.parametrize("kind", BODIES)
 def test_it_is_the_same_whatever_the_points(kind):
-    found = [loop(kind, points) for points in (2, 5, 24)]
+    found = [loop(kind, points) for points in (2, 24)]
     forces = [each.pull_off_force for each in found]
     assert max(forces) - min(forces) <= SAME * max(forces)
     # The points alone miss it: few ones by much.
