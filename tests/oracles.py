@@ -1,5 +1,7 @@
 """Slow, independent truths: whole-grid products written with NumPy alone."""
 
+import functools
+
 import numpy as np
 
 from roughcontact.halfspace.influence.love import love
@@ -13,11 +15,17 @@ def displacement(grid, modulus, pressure):
         q = np.hypot(qy[:, None], qx)
         q[0, 0] = np.inf
         return np.fft.ifft2(np.fft.fft2(pressure) * 2 / (modulus * q)).real
-    y, x = np.arange(2 * ny), np.arange(2 * nx)
-    y, x = np.minimum(y, 2 * ny - y) * dy, np.minimum(x, 2 * nx - x) * dx
-    kernel = love(x, y[:, None], dx, dy) / (np.pi * modulus)
-    spectrum = np.fft.rfft2(pressure, (2 * ny, 2 * nx)) * np.fft.rfft2(kernel)
+    spectrum = np.fft.rfft2(pressure, (2 * ny, 2 * nx)) * _influence(grid) / (np.pi * modulus)
     return np.fft.irfft2(spectrum, (2 * ny, 2 * nx))[:ny, :nx]
+
+
+@functools.lru_cache(2)
+def _influence(grid):
+    (ny, nx), (dy, dx) = grid.shape, grid.spacing
+    y, x = np.arange(2 * ny), np.arange(2 * nx)
+    y, x = np.minimum(y, 2 * ny - y), np.minimum(x, 2 * nx - x)
+    quarter = love(np.arange(nx + 1) * dx, np.arange(ny + 1)[:, None] * dy, dx, dy)
+    return np.fft.rfft2(quarter[y[:, None], x])
 
 
 def certificate(surface, modulus, pressure, depth):

@@ -121,11 +121,10 @@ def contact(stiffness, rest, pull, gap):
 
 def eigenvalues_by_matrices(form, free, curvature):
     """Return the eigenvalues of the pencil from the smallest up, by matrices."""
-    units = np.eye(free.size).reshape(-1, *free.shape)
-    matrix = np.array([form.stiffness(unit).ravel() for unit in units]).T
+    units = np.eye(free.size)[free.ravel()].reshape(-1, *free.shape)
+    matrix = np.array([form.stiffness(unit)[free] for unit in units]).T
     areas = np.broadcast_to(form.weights, free.shape).ravel()[free.ravel()]
-    chosen = np.ix_(free.ravel(), free.ravel())
-    elastic = areas[:, None] * matrix[chosen]
+    elastic = areas[:, None] * matrix
     adhesive = np.diag(areas * curvature.ravel()[free.ravel()])
     if form.mean_free:
         inner = scipy.linalg.null_space(np.ones((1, free.sum())))

@@ -1,6 +1,7 @@
 """Detachment of stuck surfaces: Johnson, Kendall and Roberts, Kendall, what is noted and what is refused."""
 
 import dataclasses
+import functools
 import math
 from copy import copy
 
@@ -120,11 +121,11 @@ def test_what_an_event_loses_is_what_the_energy_falls_by(by_force):
     assert seen > 5
 
 
-@pytest.mark.parametrize("cells", [24, 40])
-def test_kendalls_disc_comes_off_as_one(cells):
+@pytest.mark.parametrize(("cells", "error"), [(24, 0.05), (32, 0.03)])
+def test_kendalls_disc_comes_off_as_one(cells, error):
     disc = rc.shapes.flat_disc(rc.Grid((cells + 2, cells + 2), 2 / cells), radius=1.0)
     # benchmarks/adhesive_laws.py: within 3 % for 32 cells and more.
-    assert largest_tension(disc, 0.1) == pytest.approx(math.sqrt(8 * math.pi), rel=0.05)
+    assert largest_tension(disc, 0.1) == pytest.approx(math.sqrt(8 * math.pi), rel=error)
 
 
 def test_the_tension_that_a_cell_bears_falls_with_the_root_of_its_side():
@@ -229,6 +230,17 @@ def test_at_the_depth_of_the_preload_the_pressure_is_that_of_the_solution():
     assert state.adhesive_energy == pytest.approx(-0.01 * pressed.contact_area, rel=1e-12)
 
 
+@functools.cache
+def preloaded(body):
+    """Return a sphere of radius, modulus and work 1, and its pull-off force from a large contact."""
+    if body == "rings":
+        surface = ball(100)
+    else:
+        x = (np.arange(32) - 15.3) * 6.0 / 32
+        surface = rc.Surface(-(x[:, None] ** 2 + x**2) / 2, rc.Grid((32, 32), 6.0 / 32))
+    return surface, largest_tension(surface, 5.0)
+
+
 @pytest.mark.parametrize(
     ("radius", "expected"), [(0.66, True), (0.8, True), (0.93, True), (1.3, False), (1.5, False)]
 )
@@ -236,12 +248,8 @@ def test_at_the_depth_of_the_preload_the_pressure_is_that_of_the_solution():
 def test_a_preload_below_the_contact_at_the_pull_off_is_noted(body, radius, expected):
     """At the pull-off the radius of a sphere of radius, modulus and work 1 is the third root of 9 pi/8."""
     depth = (radius * math.cbrt(9 * math.pi / 8)) ** 2
-    if body == "rings":
-        surface = ball(100)
-    else:
-        x = (np.arange(32) - 15.3) * 6.0 / 32
-        surface = rc.Surface(-(x[:, None] ** 2 + x**2) / 2, rc.Grid((32, 32), 6.0 / 32))
-    off, enough = pulled(surface, depth), largest_tension(surface, 5.0)
+    surface, enough = preloaded(body)
+    off = pulled(surface, depth)
     assert off.preload_too_small is expected
     assert sum("The preload was too small" in note for note in off.notes) == expected
     if not expected:

@@ -4,6 +4,7 @@ Solutions are compared to ten times their residual, 1e-10 of the largest displac
 better than a few times that.
 """
 
+import functools
 import itertools
 
 import numpy as np
@@ -62,10 +63,15 @@ def spread(body):
     return float(np.nanmax(body.heights) - np.nanmean(body.heights))
 
 
+@functools.cache
+def made(name):
+    body, operator = BODIES[name]()
+    return body, operator, *limits(body, operator)
+
+
 @pytest.fixture(params=BODIES)
 def pressed(request):
-    body, operator = BODIES[request.param]()
-    return body, operator, *limits(body, operator)
+    return made(request.param)
 
 
 def path(body, operator, hardness, forces, **given):
@@ -130,20 +136,25 @@ def test_reloading_is_unloading_and_an_elastic_cycle_leaves_no_memory(pressed):
 
 @pytest.mark.parametrize("flow", ["removed", "raised"])
 def test_the_energy_of_flow_is_what_loading_takes_beside_the_elastic_energy(pressed, flow):
-    """The integral of the force over the depth: chords over 100 loads miss a quarter of what those over 50 miss.
+    """The integral of the force over the depth, by chords and the slopes at their ends.
 
     With a rise the energy is known to a hundredth, whatever the loads, or NaN.
     """
     body, operator, force, hardness = pressed
     given = {"operator": operator, "hardness": hardness, "flow": flow}
-    fine = rc.loading_curve(body, MODULUS, forces=force * (np.arange(1, 101) / 100) ** 2, **given)
-    force_up, depth_up = (np.append(0.0, values) for values in (fine.force, fine.depth))
-    work, coarse = (np.trapezoid(force_up[::step], depth_up[::step]) for step in (1, 2))
+    plane = operator is None
+    loads = force * np.linspace(0, 1, 51 if plane else 101)[1:] ** 2
+    fine = rc.loading_curve(body, MODULUS, forces=loads, **given)
+    columns = [np.append(0.0, values) for values in (fine.force, fine.depth, fine.stiffness)]
+
+    def work(every):
+        up, down, slope = (values[::every] for values in columns)
+        return np.trapezoid(up, down) - (np.diff(slope) * np.diff(down) ** 2).sum() / 12
+
     spent = fine.flow.flow_energy[-1]
-    # Single cells of the coarsest bodies begin to flow between two loads: as much again is allowed.
-    assert work - fine.elastic_energy[-1] == pytest.approx(
-        spent, abs=2 * abs(coarse - work) / 3 + 1e-3 * spent
-    )
+    # On lines and rings single cells begin to flow between two loads: what half of the loads miss is allowed too.
+    missed = 0.0 if plane else 2 * abs(work(2) - work(1)) / 3
+    assert work(1) - fine.elastic_energy[-1] == pytest.approx(spent, abs=missed + 1e-3 * spent)
     for count in (3, 6, 12):
         loads = np.linspace(0, force, count + 1)[1:]
         few = list(rc.loading_path(body, MODULUS, forces=[*loads, 0.5 * force], **given))
@@ -186,7 +197,7 @@ def test_work_is_elastic_energy_and_flow(pressed):
     |change of slope| (step)^2/8 in each interval where a cell changes."""
     body, operator, force, hardness = pressed
     top = rc.press(body, MODULUS, force=force, operator=operator, hardness=hardness, **TIGHT)
-    steps = 150
+    steps = 75
     depths = np.linspace(0, top.depth, steps + 1)[1:]
     given = {"operator": operator, "hardness": hardness, **TIGHT}
     found = list(rc.loading_path(body, MODULUS, depths=depths, **given))
@@ -194,7 +205,7 @@ def test_work_is_elastic_energy_and_flow(pressed):
     work = np.trapezoid(forces, [0.0, *depths])
     stored = found[-1].elastic_energy + found[-1].flow.energy
     missed = np.abs(np.diff(slopes)).sum() * (depths[0]) ** 2 / 8
-    assert missed < 2e-3 * stored
+    assert missed < 1e-3 * stored
     assert work == pytest.approx(stored, abs=missed + 1e-8 * stored)
 
 

@@ -55,35 +55,45 @@ def test_kinds():
 
 
 MAPS = {
-    "fractal": (rough(), None, "20 cells", "full-contact"),
-    "fractal, periodic": (rough(periodic=True), None, "20 cells", "half of the area"),
-    "flat, periodic": (rough(periodic=True, rolloff=16e-6), None, "spots of 16 cells", "half of the area"),
-    "flat, free": (rough(rolloff=16e-6), None, "20 cells", "full-contact"),
-    "smooth, periodic": (
+    "fractal": lambda: (rough(), None, "20 cells", "full-contact"),
+    "fractal, periodic": lambda: (rough(periodic=True), None, "20 cells", "half of the area"),
+    "flat, periodic": lambda: (
+        rough(periodic=True, rolloff=16e-6),
+        None,
+        "spots of 16 cells",
+        "half of the area",
+    ),
+    "flat, free": lambda: (rough(rolloff=16e-6), None, "20 cells", "full-contact"),
+    "smooth, periodic": lambda: (
         rough(periodic=True, rolloff=32e-6, short_cutoff=16e-6),
         None,
         "20 cells",
         "half of the area",
     ),
-    "form": (bent(rough(), 10.0), None, "20 cells", "border"),
-    "steep": (rough(rms=2e-5), None, "which no load reaches", "reduced modulus"),
-    "steep, rolled off": (rough(64, rms=4e-6, periodic=True), None, "20 cells", "reduced modulus"),
-    "larger than the pilot": (rough(200, periodic=True, rolloff=64e-6), None, "20 cells", "half of the area"),
-    "hardness": (rough(64, rms=2e-6), 1e8, "20 cells", "full-contact"),
-    "hardness, periodic": (
+    "form": lambda: (bent(rough(), 10.0), None, "20 cells", "border"),
+    "steep": lambda: (rough(rms=2e-5), None, "which no load reaches", "reduced modulus"),
+    "steep, rolled off": lambda: (rough(64, rms=4e-6, periodic=True), None, "20 cells", "reduced modulus"),
+    "larger than the pilot": lambda: (
+        rough(200, periodic=True, rolloff=64e-6),
+        None,
+        "20 cells",
+        "half of the area",
+    ),
+    "hardness": lambda: (rough(64, rms=2e-6), 1e8, "20 cells", "full-contact"),
+    "hardness, periodic": lambda: (
         rough(periodic=True, rms=2e-6, rolloff=16e-6),
         1e8,
         "spots of 16 cells",
         "half of the area",
     ),
-    "soft": (rough(64, rms=2e-6, seed=2), 1e6, "20 cells", "half of the"),
-    "hardness by spots": (rough(64, rms=2e-6), rc.NixGao(1e8, 4e-6), "20 cells", "full-contact"),
+    "soft": lambda: (rough(64, rms=2e-6, seed=2), 1e6, "20 cells", "half of the"),
+    "hardness by spots": lambda: (rough(64, rms=2e-6), rc.NixGao(1e8, 4e-6), "20 cells", "full-contact"),
 }
 
 
 @pytest.mark.parametrize("name", MAPS)
 def test_each_end_is_where_it_is_said_to_be(name):
-    surface, hardness, start, end = MAPS[name]
+    surface, hardness, start, end = MAPS[name]()
     found = rc.load_range(surface, 1e9, hardness=hardness)
     assert start in found.reasons[0]
     assert end in found.reasons[1]
@@ -127,7 +137,7 @@ def test_a_contact_that_begins_with_many_cells_has_no_lower_end():
 
 
 def test_loads_are_even_in_stiffness_and_area_and_not_in_close_pairs():
-    surface = rough(256)
+    surface = rough()
     found = rc.load_range(surface, 1e9)
     assert len(found.forces) == 24
     assert found.below == FORCES_BELOW <= 6
@@ -217,10 +227,10 @@ def test_machine_code_changes_no_load(monkeypatch):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("hardness", [1e8, 1e6, rc.NixGao(1e6, 4e-6)])
+@pytest.mark.parametrize("hardness", [1e8, 1e6, rc.NixGao(1e7, 4e-6)])
 def test_what_flows_goes_on_until_half_of_the_map_bears(hardness):
     """Elasticity ends nothing there: what flows is kept, and its contact is as large as another."""
-    surface = rough(48, rms=2e-6)
+    surface = rough(32, rms=2e-6)
     found = rc.load_range(surface, 1e9, hardness=hardness)
     ends = (
         "0.9 of the full-contact stiffness",

@@ -185,7 +185,7 @@ def test_what_makes_no_sense_is_refused(given, says):
 
 @pytest.mark.slow
 def test_without_loads_it_finds_some_that_suit_the_surface():
-    grid = rc.Grid((64, 64), 1e-6, periodic=True)
+    grid = rc.Grid((40, 40), 1e-6, periodic=True)
     surface = rc.self_affine(grid, hurst=0.8, rms=2e-7, rng=np.random.default_rng(1))
     for hardness in (5e9, np.full(grid.shape, 5e9), rc.NixGao(4e9, 1e-6)):
         loop = rc.loading_loop(surface, 1e11, hardness=hardness)

@@ -245,7 +245,7 @@ def interval_of(gap, grid):
 def test_both_brackets_contain_the_truth_in_random_gaps():
     """The dense solution lies between the bounds from a poor potential, the finer cells' bounds in the interval."""
     rng, flows = np.random.default_rng(5), 0
-    for k in range(1000):
+    for k in range(500):
         shape, sides = rng.integers(2, 7, 2), rng.uniform(0.5, 2, 2)
         grid = period(tuple(shape), tuple(sides))
         gap = np.exp(rng.normal(size=shape))
@@ -271,7 +271,7 @@ def test_both_brackets_contain_the_truth_in_random_gaps():
             assert holds(low, finer[2])
             assert holds(finer[2], finer[3])
             assert holds(finer[3], high)
-    assert flows > 500
+    assert flows > 250
 
 
 @pytest.mark.parametrize("axis", [0, 1])

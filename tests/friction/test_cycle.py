@@ -71,7 +71,7 @@ def test_loss_of_a_cycle_on_a_rough_sphere(case):
 @pytest.mark.parametrize("nu", [0.0, 0.4])
 def test_energy_is_kept(nu):
     """Work is elastic energy and loss: the trapezoidal rule is off by the square of the step."""
-    solution, bodies = pressed(nu, 24)
+    solution, bodies = pressed(nu, 16)
     top = 0.9 * MU * solution.force
     errors = []
     for steps in (2, 4, 8):

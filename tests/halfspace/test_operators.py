@@ -1,5 +1,6 @@
 """The contract of every operator."""
 
+import functools
 import gc
 from dataclasses import replace
 from weakref import ref
@@ -67,18 +68,22 @@ OTHERS = {
 }
 
 
+@functools.cache
+def made(which):
+    if which in OTHERS:
+        return OTHERS[which]()
+    shape, periodic, method = which
+    return rc.half_space(rc.Grid(shape, (0.3, 0.5), periodic), 2.0, method=method)
+
+
 @pytest.fixture(params=PLANES, ids=str)
 def plane(request):
-    shape, periodic, method = request.param
-    return rc.half_space(rc.Grid(shape, (0.3, 0.5), periodic), 2.0, method=method)
+    return made(request.param)
 
 
 @pytest.fixture(params=[*PLANES, *OTHERS], ids=str)
 def operator(request):
-    if request.param in OTHERS:
-        return OTHERS[request.param]()
-    shape, periodic, method = request.param
-    return rc.half_space(rc.Grid(shape, (0.3, 0.5), periodic), 2.0, method=method)
+    return made(request.param)
 
 
 def fields(operator, count=2, seed=0):

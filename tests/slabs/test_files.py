@@ -114,27 +114,41 @@ def test_heights_are_one_file(size, tmp_path):
     )
 
 
-@pytest.mark.usefixtures("turns")
+LOAD = {"pressure": 1e6, "tolerance": 1e-12}
+
+
+@pytest.fixture(scope="module")
+def of_one_process(tmp_path_factory):
+    """A solution and its file."""
+    solution, path = rc.press(rough((64, 48)), 1e9, **LOAD), tmp_path_factory.mktemp("one") / "here.nc"
+    rc.write(solution, path)
+    return solution, path
+
+
 @pytest.mark.parametrize("size", SIZES)
-def test_a_solution_is_the_file_of_one_process(size, tmp_path):
-    """To what `test_slabs.test_press` allows; variables, attributes and storage to the letter."""
+def test_a_solution_is_the_file_of_one_process(size, of_one_process, tmp_path, monkeypatch):
+    """To what `test_slabs.test_press` allows; variables, attributes and storage to the letter, written either way."""
+    here, path = of_one_process
     surface = rough((64, 48))
-    load = {"pressure": 1e6, "tolerance": 1e-12}
-    here = rc.press(surface, 1e9, **load)
-    rc.write(here, tmp_path / "here.nc")
 
     def work(communicator):
-        solution = rc.press(in_slabs(surface, communicator), 1e9, **load)
-        rc.write(solution, tmp_path / "there.nc")
+        solution = rc.press(in_slabs(surface, communicator), 1e9, **LOAD)
+        rc.write(solution, tmp_path / "at once.nc")
+        communicator.allgather(None)  # all have written
+        monkeypatch.setattr(by_rows, "AT_ONCE", 50)
+        communicator.allgather(None)
+        rc.write(solution, tmp_path / "in turns.nc")
         return solution.to_record()
 
     records = together(size, work)
     assert records[0].keys() == here.to_record().keys()
     assert all(record == records[0] for record in records)
-    with (
-        xarray.open_dataset(tmp_path / "here.nc") as one,
-        xarray.open_dataset(tmp_path / "there.nc") as other,
-    ):
+    for name in ("at once.nc", "in turns.nc"):
+        compare(path, tmp_path / name, here)
+
+
+def compare(path, there, here):
+    with xarray.open_dataset(path) as one, xarray.open_dataset(there) as other:
         assert set(one.variables) == set(other.variables)
         own = ("date_created",)
         assert {k: v for k, v in one.attrs.items() if k not in own} == {

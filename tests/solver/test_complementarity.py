@@ -5,6 +5,8 @@ rounded to half a unit in the last place of the largest displacement, so that th
 either side.
 """
 
+import functools
+
 import numpy as np
 import pytest
 
@@ -71,6 +73,13 @@ OPERATORS = {
     "singly periodic": lambda: rc.singly_periodic(rc.Grid((24, 24), STEP, (True, False)), MODULUS),
     "layer": lambda: rc.layer(rc.Grid((32, 32), STEP), rc.Solid(MODULUS, 0.3), 10 * STEP, base="bonded"),
 }
+
+
+@functools.cache
+def degenerate(name):
+    return Degenerate(OPERATORS[name](), 7)
+
+
 SOLVERS = {
     "default": None,
     "iterative": rc.ActiveSet(dense_limit=0),
@@ -87,7 +96,7 @@ PAIRS = [
 @pytest.mark.parametrize(("name", "solver"), PAIRS)
 @pytest.mark.parametrize("by", ["force", "depth"])
 def test_the_contact_is_that_of_the_cells_that_press(name, solver, by):
-    problem = Degenerate(OPERATORS[name](), 7)
+    problem = degenerate(name)
     solution = problem.solved(problem.control(by), SOLVERS[solver])
     assert solution.status is rc.Status.CONVERGED
     np.testing.assert_array_equal(solution.contact, problem.contact)
@@ -96,7 +105,7 @@ def test_the_contact_is_that_of_the_cells_that_press(name, solver, by):
 
 @pytest.mark.parametrize("name", ["free", "periodic, iterated", "rings", "line"])
 def test_the_stiffness_has_two_sides_and_each_has_a_name(name):
-    problem = Degenerate(OPERATORS[name](), 7)
+    problem = degenerate(name)
     solution = problem.solved(rc.Force(problem.force))
     grid, body = problem.operator.grid, {"operator": problem.operator}
     reduced, grown = (
@@ -118,7 +127,7 @@ def test_the_stiffness_has_two_sides_and_each_has_a_name(name):
 
 @pytest.mark.parametrize("name", ["free", "free, iterated"])
 def test_a_curve_and_a_single_load_take_the_same_side(name):
-    problem = Degenerate(OPERATORS[name](), 7)
+    problem = degenerate(name)
     surface = rc.Surface(problem.separation.max() - problem.separation, problem.operator.grid)
     forces = problem.force * np.array([0.5, 1.0, 1.5])
     curve = rc.loading_curve(surface, MODULUS, forces=forces)
@@ -131,7 +140,7 @@ def test_a_curve_and_a_single_load_take_the_same_side(name):
 @pytest.mark.parametrize("library", LIBRARIES, ids=lambda kind: kind.__name__)
 @pytest.mark.parametrize("name", ["free", "periodic", "rings"])
 def test_arrays_of_other_libraries(name, library):
-    problem = Degenerate(OPERATORS[name](), 7)
+    problem = degenerate(name)
     problem.separation = library.put(problem.separation)
     solution = problem.solved(rc.Force(problem.force))
     np.testing.assert_array_equal(library.get(solution.contact), problem.contact)

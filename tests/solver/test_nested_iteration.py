@@ -240,6 +240,24 @@ def test_on_coarse_cells_a_depth_is_as_far_from_full_contact():
     assert max(coarse) > 1
 
 
+def test_coarse_cells_of_which_none_is_missing_go_no_deeper_than_full_contact():
+    """A missing cell is lost in its block: where the cells bulge, the blocks may lie beyond full contact."""
+    grid, rng = rc.Grid((74, 122), 1.0, periodic=True), np.random.default_rng(1)
+    heights = rc.self_affine(grid, hurst=0.5, rms=0.3, rng=rng).heights.copy()
+    heights[rng.random(grid.shape) < 0.03] = np.nan
+    surface, coarse = rc.Surface(heights, grid), []
+
+    class Watched:
+        def run(self, operator, separation, spec, initial):
+            state = rc.ActiveSet().run(operator, separation, spec, initial)
+            if np.isfinite(separation).all():
+                coarse.append((spec.depth <= separation.mean(), state.status.converged, state.steps < 200))
+            return state
+
+    rc.press(surface, 1.0, depth=0.999 * float(np.nanmax(heights) - np.nanmean(heights)), solver=Watched())
+    assert coarse == [(True, True, True)]
+
+
 @pytest.mark.parametrize(
     ("control", "periodic"), [(Depth(0.4), False), (Force(50.0), True), (Force(50.0), False)], ids=str
 )

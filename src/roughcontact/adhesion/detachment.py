@@ -35,6 +35,7 @@ from roughcontact.validation import Array, Mask
 __all__ = ["Detachment", "StuckContact", "mean_compliance"]
 
 LARGEST = 6000  # cells of a matrix
+ROWS = 64  # of it, which are worked on at a time
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,7 +158,7 @@ class StuckContact:
 
     def snapshot(self) -> StuckContact:
         """Return the present contact, without the matrix that further events would need."""
-        now = copy(self)  # no array is changed in place
+        now = copy(self)  # no other array is changed in place
         del now.inverse
         return now
 
@@ -214,9 +215,18 @@ class StuckContact:
         column = self.inverse[:, index] / rigidity  # E39
         self.base = self.base - column * self.base[index]
         self.unit = self.unit - column * self.unit[index]
-        kept = np.arange(len(self.cells)) != index
-        self.inverse = (self.inverse - np.outer(column, self.inverse[index]))[np.ix_(kept, kept)]
-        self.rigidity = np.diagonal(self.inverse).copy()
         for name in ("cells", "areas", "work", "base", "unit"):
-            setattr(self, name, getattr(self, name)[kept])
+            setattr(self, name, np.delete(getattr(self, name), index))
+        self._take_out(index, column)
+        self.rigidity = np.diagonal(self.inverse).copy()
         return float(lost)
+
+    def _take_out(self, index: int, column: Array) -> None:
+        """Leave a cell out of the inverse, in place: by so few rows at a time that a cache holds them."""
+        inverse, row = self.inverse, self.inverse[index].copy()
+        kept, left = np.delete(np.arange(len(row)), index), len(row) - 1
+        for start in range(0, left, ROWS):
+            rows = kept[start : start + ROWS]
+            changed, into = inverse[rows] - np.outer(column[rows], row), inverse[start : start + len(rows)]
+            into[:, :index], into[:, index:left] = changed[:, :index], changed[:, index + 1 :]
+        self.inverse = inverse[:left, :left]

@@ -39,7 +39,7 @@ def nested_start(
     part, factors = coarser
     blocks = block_separation(separation, factors)
     if isinstance(control, Depth) and is_semidefinite(part):
-        control = _reachable(control, separation, blocks, xp)
+        control = elastic_control(part, blocks, _reachable(control, separation, blocks, xp), xp)
     small = gathered_if_small(blocks)
     start = Start(*nested_start(part, small, control, solver))
     spec = Specification(control, tuning.COARSE_TOLERANCE)
