@@ -6,6 +6,7 @@ either side.
 """
 
 import functools
+from copy import copy
 
 import numpy as np
 import pytest
@@ -140,7 +141,7 @@ def test_a_curve_and_a_single_load_take_the_same_side(name):
 @pytest.mark.parametrize("library", LIBRARIES, ids=lambda kind: kind.__name__)
 @pytest.mark.parametrize("name", ["free", "periodic", "rings"])
 def test_arrays_of_other_libraries(name, library):
-    problem = degenerate(name)
+    problem = copy(degenerate(name))
     problem.separation = library.put(problem.separation)
     solution = problem.solved(rc.Force(problem.force))
     np.testing.assert_array_equal(library.get(solution.contact), problem.contact)
