@@ -93,8 +93,11 @@ class JointEmulator:
         weights = self._weights(pressure)
         scatter = deviation * np.sqrt(self.inflation * share)
         unsure = beyond * self.departure / 2
-        nodes = scatter[:, :, None] * self.correlation * scatter[:, None, :] + np.diag(self.misfit**2)
-        covariance = weights @ (nodes + unsure[:, :, None] * unsure[:, None, :]) @ weights.swapaxes(1, 2)
+        nodes = scatter[:, :, None] * self.correlation  # the largest array here, hence in place
+        nodes *= scatter[:, None, :]
+        nodes += np.diag(self.misfit**2)
+        nodes += unsure[:, :, None] * unsure[:, None, :]
+        covariance = weights @ nodes @ weights.swapaxes(1, 2)
         if hardness is not None:
             softer = flow_terms(pressure, hardness[:, None]) @ self.flow
             covariance = covariance + self.flow_misfit**2 * softer[:, :, None] * softer[:, None, :]

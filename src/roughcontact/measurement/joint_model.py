@@ -66,7 +66,9 @@ class JointModel:
 
     def stiffness(self, points: Array, log_pressures: Array) -> tuple[Array, Array]:
         """Return mean and covariance of ln(K/A0) over joints, shapes (m, n) and (m, n, n), discrepancy included."""
-        mean, covariance = self.emulator.at(*self._of(points), self.place(points, log_pressures), _hardness(points))
+        mean, covariance = self.emulator.at(
+            *self._of(points), self.place(points, log_pressures), _hardness(points)
+        )
         level = points[:, 4] - points[:, 1] + math.log(self.carrying)
         return mean + level[:, None], covariance + discrepancy(log_pressures)
 
