@@ -53,7 +53,7 @@ _BEGINNING = 512
 # during reading are suppressed: the settings of the process stay as they are.
 _TALKATIVE = ("tifffile", "igor2.binarywave")
 _READING: ContextVar[bool] = ContextVar("_READING", default=False)
-# Among texts, only those of two bytes a letter hold zero bytes; the library tells them by these marks.
+# Among texts, only those of two bytes a letter hold zero bytes; the library reads them by these marks.
 _WIDE = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 _EXPORT = "export it as X3P, Gwyddion text or .npz"
 _REMEDY = f"check that the file is whole, or {_EXPORT}"

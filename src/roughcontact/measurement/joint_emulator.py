@@ -106,7 +106,7 @@ class JointEmulator:
     def mean_at(
         self, hurst: Array, side: Array, band: Array, pressure: Array, hardness: Array | None = None
     ) -> Array:
-        """Return the mean of `at` alone, which costs far less."""
+        """Return the mean of `at` without the covariance, which costs far more."""
         known, deviation, share, beyond = self._parts(hurst, side, band)
         mean = known @ self.mean + deviation**2 * (1 - share) / 2 + beyond * self.departure
         mean = (self._weights(pressure) @ mean[:, :, None])[:, :, 0]
