@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -276,7 +277,7 @@ class NormalLaw:
             return np.asarray(slope)
         return np.where(p < self.pressure[0], -self._power * self._closure(p) / p, slope)
 
-    def _between(self, p: Array) -> tuple[Array, ...]:
+    def _between(self, p: Array) -> tuple[Any, ...]:
         """Return the loads below the pressures, the numbers of these pieces, and the places in them, from 0 to 1."""
         k = np.clip(np.searchsorted(self.pressure, p, "right") - 1, 0, len(self.pressure) - 2)
         a, b, h, chord = self._pieces[:, k]
