@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 from pathlib import Path
 from typing import Any, cast
 
@@ -94,8 +95,11 @@ def _wanted(name: str, curves: xarray.Dataset) -> bool:
 def read(name: str, folder: Path = FOLDER) -> xarray.Dataset | None:
     """Return an ensemble in memory, None where it was not computed."""
     path = folder / f"{name}.nc"
-    if not path.is_file():
-        return None
+    return _loaded(path, path.stat().st_mtime_ns).copy() if path.is_file() else None
+
+
+@cache  # many tables take the same ensembles
+def _loaded(path: Path, _time: int) -> xarray.Dataset:
     with xarray.open_dataset(path, engine="h5netcdf") as data:
         found = data.load()
     found = found.assign({each: found[each].astype(np.float64) for each in _KEPT if each in found})

@@ -82,6 +82,16 @@ def test_a_format_of_ours_under_another_name_is_not_read_leniently(put, npy):
             rc.read(put(name, content), unit="um", size=1e-5)
 
 
+def test_only_texts_are_tried_as_texts(put):
+    """The readers of texts pass over the lines above a table, whatever these hold."""
+    table = "0 0 1\n1 0 2\n0 1 3\n1 1 4\n"
+    for encoding in ("utf-8", "utf-16"):
+        with pytest.raises(rc.ReadError, match=r"it is a text of numbers; rename it"):
+            rc.read(put("a.dat", table.encode(encoding)), unit="um", size=1e-5)
+    with pytest.raises(rc.ReadError, match="its format is not recognised"):
+        rc.read(put("a.dat", b"a mark\0 of some length\n" + table.encode()), unit="um", size=1e-5)
+
+
 def test_bytes_without_a_mark_are_not_taken_for_a_terrain(put):
     terrain = np.random.default_rng(3).integers(200, 900, 400).astype(">i2").tobytes()
     with pytest.raises(rc.ReadError, match=r"a\.bin: .*\.hgt"):

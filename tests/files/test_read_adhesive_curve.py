@@ -1,6 +1,7 @@
 """Paths of surfaces that stick written, and read back to the last bit."""
 
 import dataclasses
+import functools
 
 import numpy as np
 import pytest
@@ -36,6 +37,7 @@ LOOPS = {
     "patchy": patchy,
     "line": on_a_line,
 }
+LOOPS = {name: functools.cache(loop) for name, loop in LOOPS.items()}
 
 
 @pytest.mark.parametrize("name", LOOPS)

@@ -1,6 +1,7 @@
 """Loading curves written, and read back to the last bit."""
 
 import dataclasses
+import functools
 
 import numpy as np
 import pytest
@@ -39,6 +40,7 @@ CURVES = {
     "foundation": lambda: on_a_line(rc.foundation),
     "rings": on_rings,
 }
+CURVES = {name: functools.cache(curve) for name, curve in CURVES.items()}
 
 
 @pytest.mark.parametrize("name", CURVES)

@@ -1,6 +1,7 @@
 """Curves of stuck surfaces that are drawn back, written and read back to the last bit."""
 
 import dataclasses
+import functools
 
 import numpy as np
 import pytest
@@ -34,6 +35,7 @@ CURVES = {
     "patchy": patchy,
     "line": on_a_line,
 }
+CURVES = {name: functools.cache(curve) for name, curve in CURVES.items()}
 
 
 @pytest.mark.parametrize("name", CURVES)

@@ -1,5 +1,6 @@
 """Shear under a varying pressure: levels beside the law, the energy, and a slow program that shares nothing with it."""
 
+import functools
 import math
 from itertools import pairwise
 
@@ -81,7 +82,7 @@ def test_a_straight_step_is_the_sum_of_its_parts(phase):
 def test_the_area_of_a_cycle_is_the_dissipated_energy(phase):
     """Trapezoids are good to the square of the step."""
     errors = []
-    for steps in (50, 100, 200):
+    for steps in (50, 200):
         history = LAW.history(*cycles(phase, steps))
         s, q = history.displacement[steps:], history.traction[steps:]
         assert s[0] == pytest.approx(s[-1], rel=0, abs=1e-12)
@@ -89,7 +90,7 @@ def test_the_area_of_a_cycle_is_the_dissipated_energy(phase):
         assert lost > 0
         errors.append(abs(((q[1:] + q[:-1]) / 2 @ np.diff(s)) - lost) / lost)
     assert errors[0] < 0.02
-    assert errors[0] / errors[2] == pytest.approx(16, rel=0.2)
+    assert errors[0] / errors[1] == pytest.approx(16, rel=0.2)
     assert (history.dissipated >= 0).all()
 
 
@@ -113,20 +114,25 @@ class TestSlowly:
     bodies = (rc.Solid(2e9, 0.0), rc.Solid(2e9, 0.0))
     mean = 3e6
 
-    def history(self, p, tau):
+    @staticmethod
+    @functools.cache
+    def limit(pressure):
+        """Return the largest traction of each cell, for a pressure that recurs in each period and number of steps."""
+        return MU * rc.press(TestSlowly.surface, TestSlowly.bodies, pressure=pressure).pressure.ravel()
+
+    def law(self, p):
         loads = np.unique(np.concatenate([np.geomspace(self.mean / 300, 1.5 * self.mean, 200), p]))
         curve = rc.loading_curve(
             self.surface, self.bodies, pressures=loads[np.append(True, np.diff(loads) > 1.0)]
         )
-        return rc.shear_law(curve, self.bodies, friction=MU, exact=True).history(p, tau)
+        return rc.shear_law(curve, self.bodies, friction=MU, exact=True)
 
     def slowly(self, p, tau):
         """Return displacements and dissipated energies: each step minimises the energy under the limits of friction."""
         matrix = rc.half_space(self.surface.grid, 1e9).as_matrix()
         moved, lost, slip, q = [], [], np.zeros(len(matrix)), np.zeros(len(matrix))
         for pressure, traction in zip(p, tau, strict=True):
-            limit = MU * rc.press(self.surface, self.bodies, pressure=pressure).pressure.ravel()
-            q, s = coulomb(matrix, limit, slip, q, traction * len(matrix))
+            q, s = coulomb(matrix, self.limit(round(pressure, 3)), slip, q, traction * len(matrix))
             now = matrix @ q - s
             lost.append(-(q @ (now - slip)) / len(matrix))
             moved.append(s)
@@ -135,10 +141,14 @@ class TestSlowly:
 
     @pytest.mark.parametrize("phase", [math.pi / 4, math.pi / 2])
     def test_out_of_phase(self, phase):
-        errors = []
+        loads = {"pressure": self.mean, "swing": 0.4, "share": 0.41}
+        errors, law = (
+            [],
+            self.law(cycles(phase, 48, **loads)[0]),
+        )  # the coarser steps have some of its pressures
         for steps in (12, 24, 48):
-            p, tau = cycles(phase, steps, pressure=self.mean, swing=0.4, share=0.41)
-            levels, (moved, lost) = self.history(p, tau), self.slowly(p, tau)
+            p, tau = cycles(phase, steps, **loads)
+            levels, (moved, lost) = law.history(p, tau), self.slowly(p, tau)
             largest = abs(levels.displacement).max()
             part = slice(steps + 1, None)
             errors.append(
@@ -156,7 +166,7 @@ class TestSlowly:
     def test_in_phase(self):
         """Only the law between its loads differs, by what single cells change there."""
         p, tau = cycles(0.0, 24, pressure=self.mean, swing=0.4, share=0.41)
-        levels, (moved, _) = self.history(p, tau), self.slowly(p, tau)
+        levels, (moved, _) = self.law(p).history(p, tau), self.slowly(p, tau)
         np.testing.assert_allclose(moved, levels.displacement, rtol=0, atol=1e-3 * abs(moved).max())
 
     def test_constant_pressure(self):

@@ -62,9 +62,9 @@ def test_the_misfit_is_the_largest_difference_between_the_slips_too():
     law = power(0.9)
     for count in (8, 32):
         elements, top = law.elements(0.5, count=count), float(law.gross_slip(0.5))
-        s = np.geomspace(0.05 * top, top, 307)
+        s = np.geomspace(0.05 * top, top, 103)  # five to an element at least
         traction = abs(elements.traction(s) / law.traction(s, 0.5) - 1).max()
-        loss = max(abs(elements.loss(each) / law.loss(0.5, displacement=each) - 1) for each in s)
+        loss = abs(elements.loss(s) / [law.loss(0.5, displacement=each) for each in s] - 1).max()
         assert 0.7 * elements.misfit["traction"] < traction < 1.1 * elements.misfit["traction"]
         assert 0.7 * elements.misfit["loss"] < loss < 1.1 * elements.misfit["loss"]
     # At another pressure they are wrong by more than their misfit.

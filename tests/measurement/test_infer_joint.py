@@ -244,8 +244,9 @@ class TestEmulator:
         np.testing.assert_allclose(more, (beyond * emulator.departure / 2) ** 2, atol=1e-15)
 
 
-class TestPlan:
-    PLAN = rc.plan_joint(
+@pytest.fixture(scope="module")
+def plan():
+    return rc.plan_joint(
         pressures(),
         errors=0.05,
         gain=0.03,
@@ -256,31 +257,33 @@ class TestPlan:
         profile=TOPOGRAPHY,
     )
 
-    def test_area_and_specimens_narrow_the_interval(self):
-        assert (np.diff(self.PLAN.width, axis=0) < 0).all()
-        assert (np.diff(self.PLAN.width, axis=1) < 0).all()
 
-    def test_the_least_total_area_is_found_or_none(self):
-        wanted = self.PLAN.width[1, 1]
-        area, number = self.PLAN.reaching(wanted)
+class TestPlan:
+    def test_area_and_specimens_narrow_the_interval(self, plan):
+        assert (np.diff(plan.width, axis=0) < 0).all()
+        assert (np.diff(plan.width, axis=1) < 0).all()
+
+    def test_the_least_total_area_is_found_or_none(self, plan):
+        wanted = plan.width[1, 1]
+        area, number = plan.reaching(wanted)
         assert area * number <= 4 * 1.4e-6
-        row, column = self.PLAN.areas.tolist().index(area), self.PLAN.specimens.tolist().index(number)
-        assert self.PLAN.width[row, column] <= wanted
-        assert self.PLAN.reaching(self.PLAN.width.min() / 2) is None
+        row, column = plan.areas.tolist().index(area), plan.specimens.tolist().index(number)
+        assert plan.width[row, column] <= wanted
+        assert plan.reaching(plan.width.min() / 2) is None
 
-    def test_without_a_load_it_is_that_of_the_others(self):
+    def test_without_a_load_it_is_that_of_the_others(self, plan):
         others = rc.plan_joint(
-            self.PLAN.pressures[1:],
+            plan.pressures[1:],
             errors=0.05,
             gain=0.03,
             modulus=MODULUS,
             modulus_error=0.02,
-            areas=self.PLAN.areas,
-            specimens=(int(self.PLAN.specimens[0]),),
+            areas=plan.areas,
+            specimens=(int(plan.specimens[0]),),
             profile=TOPOGRAPHY,
         )
-        assert self.PLAN.without[0] == pytest.approx(others.width[0, 0], rel=1e-12)
-        assert (self.PLAN.without >= self.PLAN.width[0, 0]).all()
+        assert plan.without[0] == pytest.approx(others.width[0, 0], rel=1e-12)
+        assert (plan.without >= plan.width[0, 0]).all()
 
     def test_it_is_what_the_posterior_gives(self):
         """Fisher's bound with the prior: the posterior of a nearly linear model has that width, to 15 %."""

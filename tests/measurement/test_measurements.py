@@ -1,6 +1,7 @@
 """Many measurements of one surface: bands, noise, the combined spectrum and its interval, maps that do not belong."""
 
 import dataclasses
+import functools
 
 import numpy as np
 import pytest
@@ -13,17 +14,25 @@ LAW = rc.SelfAffineSpectrum(0.8, None, None, 3e-6)
 SIDE = 64
 
 
-def places(seed, count=6, *, gain=0.0, side=SIDE, law=LAW):
-    """Return maps of `side` cells, each cut from its own periodic surface twice as large, of a known spectrum."""
+@functools.cache  # the same places with and without scatter
+def drawn(seed, count, side, law):
+    """Return heights of `side` cells, each cut from its own periodic surface twice as large, and a normal number."""
     rng = np.random.default_rng(seed)
     grid = rc.Grid((2 * side, 2 * side), 1e-6, periodic=True)
-    return {
-        f"m{k}": rc.Surface(
-            rc.synthesise(grid, law, rng, amplitudes="gaussian").heights[:side, :side]
-            * np.exp(gain / 2 * rng.standard_normal()),
-            1e-6,
+    return [
+        (
+            rc.synthesise(grid, law, rng, amplitudes="gaussian").heights[:side, :side].copy(),
+            rng.standard_normal(),
         )
-        for k in range(count)
+        for _ in range(count)
+    ]
+
+
+def places(seed, count=6, *, gain=0.0, side=SIDE, law=LAW):
+    """Return maps of `side` cells of a known spectrum, whose heights scatter from map to map."""
+    return {
+        f"m{k}": rc.Surface(heights * np.exp(gain / 2 * normal), 1e-6)
+        for k, (heights, normal) in enumerate(drawn(seed, count, side, law))
     }
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import logging
 import math
 import re
@@ -52,6 +53,8 @@ _BEGINNING = 512
 # during reading are suppressed: the settings of the process stay as they are.
 _TALKATIVE = ("tifffile", "igor2.binarywave")
 _READING: ContextVar[bool] = ContextVar("_READING", default=False)
+# Among texts, only those of two bytes a letter hold zero bytes; the library reads them by these marks.
+_WIDE = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 _EXPORT = "export it as X3P, Gwyddion text or .npz"
 _REMEDY = f"check that the file is whole, or {_EXPORT}"
 
@@ -62,6 +65,17 @@ def _unless_reading(_: logging.LogRecord) -> bool:
 
 for _name in _TALKATIVE:
     logging.getLogger(_name).addFilter(_unless_reading)
+
+
+class _Binary(BoundedStream):
+    """The content of a file that is no text.
+
+    The library tries its readers of texts first, each of them up to 600 times, before that of the format.
+    """
+
+    def read1(self, size: int | None = -1, /) -> bytes:
+        """End a reader of texts: only texts are read so."""
+        raise RuntimeError("it is not a text: it holds zero bytes")
 
 
 def read_foreign(kind: str, data: bytes, channel: str | int | None) -> HeightMap:
@@ -100,7 +114,9 @@ def _opened(kind: str, data: bytes) -> Iterator[tuple[Any, BoundedStream]]:
     except ImportError as error:
         raise without_reader("SurfaceTopography", error) from error
     # Bytes in memory leave no file open if a reader fails half-way.
-    stream = BoundedStream(data, "surface" + kind if re.fullmatch(r"\.[a-z0-9_-]+", kind) else "surface")
+    name = "surface" + kind if re.fullmatch(r"\.[a-z0-9_-]+", kind) else "surface"
+    is_binary = b"\0" in data and not data.startswith(_WIDE)
+    stream = (_Binary if is_binary else BoundedStream)(data, name)
     hint = "" if b"\0" in data else "name a text of numbers .txt; "
     if kind in (".toml", ".json"):
         hint = "a job or a result is repeated by 'roughcontact run'; "

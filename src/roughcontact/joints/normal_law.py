@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 
@@ -135,7 +136,7 @@ class NormalLaw:
         ValueError
             If a pressure lies outside the law: it is never extrapolated.
         """
-        return np.asarray(self._gap(self._within(pressure))[0])
+        return self._gap(self._within(pressure))
 
     @numeric(pressure="Pa")
     def stiffness_at(self, pressure: float | Array) -> Array:
@@ -151,7 +152,7 @@ class NormalLaw:
         float or array
             K/A0 [Pa/m]; 0 at first touch, unless the law begins with a finite slope.
         """
-        return np.asarray(-1 / self._gap(np.maximum(self._within(pressure), _TINY * self.pressure[0]))[1])
+        return np.asarray(-1 / self._slope(np.maximum(self._within(pressure), _TINY * self.pressure[0])))
 
     @numeric(gap="m")
     def pressure_at(self, gap: float | Array) -> Array:
@@ -184,7 +185,7 @@ class NormalLaw:
         below, above = self.pressure[k], self.pressure[k + 1]
         for _ in range(_BISECTIONS):
             middle = (below + above) / 2
-            closed = self._gap(middle)[0] <= g
+            closed = self._gap(middle) <= g
             below, above = np.where(closed, below, middle), np.where(closed, middle, above)
         if math.isnan(self.touch):
             return np.where(g > self.gap[0], np.nan, above)
@@ -211,7 +212,7 @@ class NormalLaw:
         ends = np.concatenate([[low], inside, [high]])
         lower, upper, middles = ends[:-1], ends[1:], (ends[1:] + ends[:-1]) / 2
         # Between the chord and the polygon through the loads, then in each part between the polygon and the law
-        total = float((middles - (low + high) / 2) @ np.diff(self._gap(ends)[0]))
+        total = float((middles - (low + high) / 2) @ np.diff(self._gap(ends)))
         if low < self.pressure[0]:
             p, m = ends[:2], self._power
             closure = (self.touch - self.gap[0]) * (p / self.pressure[0]) ** m
@@ -260,21 +261,31 @@ class NormalLaw:
         """Return the range of the law."""
         return f"NormalLaw({len(self.pressure)} loads, {self.pressure[0]:.4g} to {self.highest:.4g} Pa)"
 
-    def _gap(self, p: Array) -> tuple[Array, Array]:
-        """Return mean gaps [m] at pressures [Pa], and their slopes."""
+    def _gap(self, p: Array) -> Array:
+        """Return mean gaps [m] at pressures [Pa]."""
+        k, a, b, h, chord, t = self._between(p)
+        gap = self.gap[k] + chord * h * t - h * a * b * t * (1 - t) / (b + (a - b) * t)
+        if math.isnan(self.touch):
+            return np.asarray(gap)
+        return np.where(p < self.pressure[0], self.touch - self._closure(p), gap)
+
+    def _slope(self, p: Array) -> Array:
+        """Return the slopes of the gap at positive pressures [m/Pa]."""
+        _, a, b, _, chord, t = self._between(p)
+        slope = chord - a * b * (b * (1 - t) ** 2 - a * t**2) / (b + (a - b) * t) ** 2
+        if math.isnan(self.touch):
+            return np.asarray(slope)
+        return np.where(p < self.pressure[0], -self._power * self._closure(p) / p, slope)
+
+    def _between(self, p: Array) -> tuple[Any, ...]:
+        """Return the loads below the pressures, the numbers of these pieces, and the places in them, from 0 to 1."""
         k = np.clip(np.searchsorted(self.pressure, p, "right") - 1, 0, len(self.pressure) - 2)
         a, b, h, chord = self._pieces[:, k]
-        t = np.maximum(p - self.pressure[k], 0.0) / h
-        w = b + (a - b) * t
-        gap = self.gap[k] + chord * h * t - h * a * b * t * (1 - t) / w
-        slope = chord - a * b * (b * (1 - t) ** 2 - a * t**2) / w**2
-        if math.isnan(self.touch):
-            return gap, slope
-        closure = (self.touch - self.gap[0]) * (p / self.pressure[0]) ** self._power
-        below, some = p < self.pressure[0], np.maximum(p, _TINY * self.pressure[0])
-        return np.where(below, self.touch - closure, gap), np.where(
-            below, -self._power * closure / some, slope
-        )
+        return k, a, b, h, chord, np.maximum(p - self.pressure[k], 0.0) / h
+
+    def _closure(self, p: Array) -> Array:
+        """Return by how much a pressure below the lowest load closes the gap [m]."""
+        return np.asarray((self.touch - self.gap[0]) * (p / self.pressure[0]) ** self._power)
 
     @cached_property
     def _pieces(self) -> Array:

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from roughcontact.guesses import hinted
-from roughcontact.joints.shear_law import BELOW, TOUCH, ShearLaw
+from roughcontact.joints.shear_law import BELOW, TOUCH, ShearLaw, slid
 from roughcontact.units import in_si
 from roughcontact.validation import Array, numeric, positive, positive_scalar, require, whole
 
@@ -161,9 +161,10 @@ def jenkins_elements(
     elements = JenkinsElements(stiffness, slip, pressure, {})
     smooth = replace(law, normal=replace(law.normal, cells=np.full_like(law.normal.cells, np.inf)))
     s = np.geomspace(min(_RESOLVED * slip[0], last), last, _AMPLITUDES)
-    traction = law.traction(s, pressure)
-    loss = np.array([smooth.loss(pressure, traction=each) for each in traction])
-    pairs = {"traction": (elements.traction(s), traction), "loss": (elements.loss(s), loss)}
+    backbone = law.traction(s, pressure)
+    loss = np.array([smooth.loss(pressure, traction=each) for each in backbone])
+    loss += 4 * backbone * slid(law, s, backbone, pressure)
+    pairs = {"traction": (elements.traction(s), backbone), "loss": (elements.loss(s), loss)}
     return replace(elements, misfit={name: float(abs(a / b - 1).max()) for name, (a, b) in pairs.items()})
 
 

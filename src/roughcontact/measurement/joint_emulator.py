@@ -89,22 +89,40 @@ class JointEmulator:
             Of ln(K l/(E* A0)).
         covariance : array, shape (m, d, d)
         """
-        known = terms(hurst, np.minimum(side, SIDE[1]), band)
-        deviation = np.exp(known @ self.deviation)
-        share = np.minimum(SIDE[1] / side, 1)[:, None] ** 2  # of the variance of the largest ensemble
-        beyond = (1 - share) / (1 - (SIDE[1] / LARGE) ** 2)
-        mean = known @ self.mean + deviation**2 * (1 - share) / 2 + beyond * self.departure
-        weights = _weights((pressure - self.nodes[0]) / (self.nodes[1] - self.nodes[0]), self.nodes.size)
+        _, deviation, share, beyond = self._parts(hurst, side, band)
+        weights = self._weights(pressure)
         scatter = deviation * np.sqrt(self.inflation * share)
         unsure = beyond * self.departure / 2
-        nodes = scatter[:, :, None] * self.correlation * scatter[:, None, :] + np.diag(self.misfit**2)
-        covariance = weights @ (nodes + unsure[:, :, None] * unsure[:, None, :]) @ weights.swapaxes(1, 2)
-        mean = (weights @ mean[:, :, None])[:, :, 0]
+        nodes = scatter[:, :, None] * self.correlation  # the largest array here, hence in place
+        nodes *= scatter[:, None, :]
+        nodes += np.diag(self.misfit**2)
+        nodes += unsure[:, :, None] * unsure[:, None, :]
+        covariance = weights @ nodes @ weights.swapaxes(1, 2)
         if hardness is not None:
             softer = flow_terms(pressure, hardness[:, None]) @ self.flow
-            mean = mean + softer
             covariance = covariance + self.flow_misfit**2 * softer[:, :, None] * softer[:, None, :]
-        return mean, covariance
+        return self.mean_at(hurst, side, band, pressure, hardness), covariance
+
+    def mean_at(
+        self, hurst: Array, side: Array, band: Array, pressure: Array, hardness: Array | None = None
+    ) -> Array:
+        """Return the mean of `at` without the covariance, which costs far more."""
+        known, deviation, share, beyond = self._parts(hurst, side, band)
+        mean = known @ self.mean + deviation**2 * (1 - share) / 2 + beyond * self.departure
+        mean = (self._weights(pressure) @ mean[:, :, None])[:, :, 0]
+        if hardness is not None:
+            mean = mean + flow_terms(pressure, hardness[:, None]) @ self.flow
+        return np.asarray(mean)
+
+    def _parts(self, hurst: Array, side: Array, band: Array) -> tuple[Array, Array, Array, Array]:
+        """Return the terms, the standard deviations, and the parts of the largest ensemble and of pieces of it."""
+        known = terms(hurst, np.minimum(side, SIDE[1]), band)
+        share = np.minimum(SIDE[1] / side, 1)[:, None] ** 2  # of the variance of the largest ensemble
+        return known, np.exp(known @ self.deviation), share, (1 - share) / (1 - (SIDE[1] / LARGE) ** 2)
+
+    def _weights(self, pressure: Array) -> Array:
+        place = (pressure - self.nodes[0]) / (self.nodes[1] - self.nodes[0])
+        return _weights(place, self.nodes.size)
 
 
 def terms(hurst: Array, side: Array, band: Array) -> Array:

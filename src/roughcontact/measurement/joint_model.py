@@ -66,15 +66,16 @@ class JointModel:
 
     def stiffness(self, points: Array, log_pressures: Array) -> tuple[Array, Array]:
         """Return mean and covariance of ln(K/A0) over joints, shapes (m, n) and (m, n, n), discrepancy included."""
-        mean, covariance = self._at(points, self.place(points, log_pressures))
+        mean, covariance = self.emulator.at(
+            *self._of(points), self.place(points, log_pressures), _hardness(points)
+        )
         level = points[:, 4] - points[:, 1] + math.log(self.carrying)
         return mean + level[:, None], covariance + discrepancy(log_pressures)
 
-    def _at(self, points: Array, place: Array) -> tuple[Array, Array]:
-        """Return mean and covariance of ln(K l/(E* A0)) at ln(p l/(E* h))."""
+    def _of(self, points: Array) -> tuple[Array, Array, Array]:
+        """Return what the emulator needs of the topography: H, L/l and l/l_c."""
         _, rolloff, hurst, band = points.T[:4]
-        side = math.sqrt(self.area * self.carrying) * np.exp(-rolloff)
-        return self.emulator.at(hurst, side, np.exp(band), place, _hardness(points))
+        return hurst, math.sqrt(self.area * self.carrying) * np.exp(-rolloff), np.exp(band)
 
     def at(self, points: Array, data: JointData) -> tuple[Array, Array]:
         """Return mean and covariance of what is measured, its noise included, shapes (m, d) and (m, d, d)."""
@@ -103,7 +104,7 @@ class JointModel:
         step = np.array([-0.25, 0.25])
         low, high = self.emulator.nodes[0], self.emulator.nodes[-1]
         shift = np.clip(self.place(points, np.array([log_pressure])), low + step[1], high - step[1])
-        mean, _ = self._at(points, shift + step)
+        mean = self.emulator.mean_at(*self._of(points), shift + step, _hardness(points))
         return np.asarray((mean[:, 1] - mean[:, 0]) / (step[1] - step[0]))
 
     def p_value(self, data: JointData, prior: Prior | None, found: Posterior) -> tuple[float, str]:

@@ -214,7 +214,7 @@ def _fit(
     free = 3 if limit != "none" else 2
 
     def structure(p: Array) -> Array:
-        return np.asarray(2 * band.jumps @ (band.weight * band.law(p[0], p[1], p[2], limit)))
+        return np.asarray(2 * (band.jumps @ (band.weight * band.law(p[0], p[1], p[2], limit))))
 
     parameters = _start(structure, band, data, limit)
     # The limit stays within the waves of the grid, the law within the range of the generator.
