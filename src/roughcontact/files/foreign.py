@@ -115,9 +115,9 @@ def _opened(kind: str, data: bytes) -> Iterator[tuple[Any, BoundedStream]]:
         raise without_reader("SurfaceTopography", error) from error
     # Bytes in memory leave no file open if a reader fails half-way.
     name = "surface" + kind if re.fullmatch(r"\.[a-z0-9_-]+", kind) else "surface"
-    is_binary = b"\0" in data and not data.startswith(_WIDE)
-    stream = (_Binary if is_binary else BoundedStream)(data, name)
-    hint = "" if b"\0" in data else "name a text of numbers .txt; "
+    has_zeros = b"\0" in data
+    stream = (_Binary if has_zeros and not data.startswith(_WIDE) else BoundedStream)(data, name)
+    hint = "" if has_zeros else "name a text of numbers .txt; "
     if kind in (".toml", ".json"):
         hint = "a job or a result is repeated by 'roughcontact run'; "
     with damage("it cannot be read", hint + _REMEDY, said=brief):  # any of forty readers may raise any error

@@ -161,10 +161,9 @@ def jenkins_elements(
     elements = JenkinsElements(stiffness, slip, pressure, {})
     smooth = replace(law, normal=replace(law.normal, cells=np.full_like(law.normal.cells, np.inf)))
     s = np.geomspace(min(_RESOLVED * slip[0], last), last, _AMPLITUDES)
-    backbone = law.traction(s, pressure)
-    loss = np.array([smooth.loss(pressure, traction=each) for each in backbone])
-    loss += 4 * backbone * slid(law, s, backbone, pressure)
-    pairs = {"traction": (elements.traction(s), backbone), "loss": (elements.loss(s), loss)}
+    tau = law.traction(s, pressure)
+    loss = [smooth.loss(pressure, traction=each) for each in tau] + 4 * tau * slid(law, s, tau, pressure)
+    pairs = {"traction": (elements.traction(s), tau), "loss": (elements.loss(s), loss)}
     return replace(elements, misfit={name: float(abs(a / b - 1).max()) for name, (a, b) in pairs.items()})
 
 

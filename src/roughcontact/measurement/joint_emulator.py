@@ -90,7 +90,7 @@ class JointEmulator:
         covariance : array, shape (m, d, d)
         """
         _, deviation, share, beyond = self._parts(hurst, side, band)
-        weights = self._weights(pressure)
+        weights = _weights(self.nodes, pressure)
         scatter = deviation * np.sqrt(self.inflation * share)
         unsure = beyond * self.departure / 2
         nodes = scatter[:, :, None] * self.correlation  # the largest array here, hence in place
@@ -109,7 +109,7 @@ class JointEmulator:
         """Return the mean of `at` without the covariance, which costs far more."""
         known, deviation, share, beyond = self._parts(hurst, side, band)
         mean = known @ self.mean + deviation**2 * (1 - share) / 2 + beyond * self.departure
-        mean = (self._weights(pressure) @ mean[:, :, None])[:, :, 0]
+        mean = (_weights(self.nodes, pressure) @ mean[:, :, None])[:, :, 0]
         if hardness is not None:
             mean = mean + flow_terms(pressure, hardness[:, None]) @ self.flow
         return np.asarray(mean)
@@ -119,10 +119,6 @@ class JointEmulator:
         known = terms(hurst, np.minimum(side, SIDE[1]), band)
         share = np.minimum(SIDE[1] / side, 1)[:, None] ** 2  # of the variance of the largest ensemble
         return known, np.exp(known @ self.deviation), share, (1 - share) / (1 - (SIDE[1] / LARGE) ** 2)
-
-    def _weights(self, pressure: Array) -> Array:
-        place = (pressure - self.nodes[0]) / (self.nodes[1] - self.nodes[0])
-        return _weights(place, self.nodes.size)
 
 
 def terms(hurst: Array, side: Array, band: Array) -> Array:
@@ -168,9 +164,10 @@ def joint_emulator() -> JointEmulator:
     )
 
 
-def _weights(place: Array, number: int) -> Array:
-    """Return the weights of cubic interpolation between nodes 0, 1, ..., shape (m, d, number)."""
-    first = np.clip(np.floor(place).astype(int) - 1, 0, number - 4)
+def _weights(nodes: Array, pressure: Array) -> Array:
+    """Return the weights of cubic interpolation between even nodes, shape (m, d, number)."""
+    place = (pressure - nodes[0]) / (nodes[1] - nodes[0])
+    first = np.clip(np.floor(place).astype(int) - 1, 0, nodes.size - 4)
     t = place - first
     near = np.stack(
         [
@@ -181,6 +178,6 @@ def _weights(place: Array, number: int) -> Array:
         ],
         axis=-1,
     )
-    found = np.zeros((*place.shape, number))
+    found = np.zeros((*place.shape, nodes.size))
     np.put_along_axis(found, first[..., None] + np.arange(4), near, axis=-1)
     return found

@@ -22,7 +22,6 @@ __all__ = ["power_spectrum"]
 # A windowed spectrum of a free surface is reliable from this number of waves per length on: longer waves are affected
 # by levelling and by the width of the window's kernel.
 LONGEST = 3.0
-AT_ONCE = 20_000  # waves and rings of rows that are averaged together
 FINEST = 1e5  # bins to a factor of ten: no surface has enough waves for more
 
 
@@ -130,26 +129,19 @@ def _ring_means(
     total, logs, number = (np.zeros(size) for _ in range(3))
     # Every column except the first (and the Nyquist one, which is left out) stands for two waves.
     weights = np.where(np.arange(waves.qx.size) == 0, 1.0, 2.0)
-    rows = max(1, AT_ONCE // max(waves.qx.size, size))
-    for first in range(0, waves.qy.size, rows):
-        block = slice(first, first + rows)
-        q = np.hypot(waves.qy[block, None], waves.qx)
-        row, column = np.nonzero((q <= limit) & (q > 0))
-        q, weight = q[row, column], weights[column]
+    for qy, row in zip(waves.qy, waves.density, strict=True):
+        q = np.hypot(qy, waves.qx)
+        keep = (q <= limit) & (q > 0)
+        q, weight = q[keep], weights[keep]
         ln_q = np.log(q)
         if per_decade is None:
             index = (q / least + 0.5).astype(np.int64)
         else:
             # The tiny shift keeps the longest waves, which lie on the first edge, inside the first bin.
             index = (per_decade / math.log(10) * (ln_q - math.log(least)) + 1e-9).astype(np.int64)
-        index += size * row
-        for found, values in (
-            (total, weight * waves.density[block][row, column]),
-            (logs, weight * ln_q),
-            (number, weight),
-        ):
-            of_rows = np.bincount(index, values, minlength=size * rows).reshape(-1, size)
-            np.concatenate([found[None], of_rows]).sum(axis=0, out=found)
+        total += np.bincount(index, weight * row[keep], minlength=size)
+        logs += np.bincount(index, weight * ln_q, minlength=size)
+        number += np.bincount(index, weight, minlength=size)
     full = number > 0
     return np.exp(logs[full] / number[full]), total[full] / number[full], number[full]
 
