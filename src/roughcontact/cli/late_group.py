@@ -132,8 +132,7 @@ def _without_types(command: Any, ctx: Any) -> Any:
 
 
 def _imported(module: str, name: str) -> Any:
-    members = vars(import_module(module))
-    return _made(members[_function(name)], module, name)
+    return _made(vars(import_module(module))[_function(name)], module, name)
 
 
 @cache  # a process may call a command often

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from roughcontact.guesses import hinted
-from roughcontact.joints.shear_law import BELOW, TOUCH, ShearLaw, slid
+from roughcontact.joints.shear_law import BELOW, ROUNDING, TOUCH, ShearLaw
 from roughcontact.units import in_si
 from roughcontact.validation import Array, numeric, positive, positive_scalar, require, whole
 
@@ -154,15 +154,20 @@ def jenkins_elements(
     require(0 < first < 1, part, "give a number such as 0.01", value=first, place="first")
     least = f"elements need a pressure above {low:g} Pa"
     require(pressure > low, least, "give a larger pressure", value=pressure, place="pressure")
-    last = law.displacement(law.friction * (pressure - low), pressure)
+    last = law.displacement(end := law.friction * (pressure - low), pressure)
+
+    def backbone(s: Array) -> Array:  # the traction of the last slip may lie beyond the law by rounding
+        return np.where(s < last, law.traction(s, pressure), end)
+
     slip = last * np.geomspace(first, 1.0, count)
-    slopes = np.append(np.diff(law.traction(slip, pressure), prepend=0.0) / np.diff(slip, prepend=0.0), 0.0)
+    slopes = np.append(np.diff(backbone(slip), prepend=0.0) / np.diff(slip, prepend=0.0), 0.0)
     stiffness = np.maximum(-np.diff(slopes), 0.0)  # below 0 by rounding only
     elements = JenkinsElements(stiffness, slip, pressure, {})
     smooth = replace(law, normal=replace(law.normal, cells=np.full_like(law.normal.cells, np.inf)))
     s = np.geomspace(min(_RESOLVED * slip[0], last), last, _AMPLITUDES)
-    tau = law.traction(s, pressure)
-    loss = [smooth.loss(pressure, traction=each) for each in tau] + 4 * tau * slid(law, s, tau, pressure)
+    slid = s - law.displacement(tau := backbone(s), pressure)  # not 0 where tau is mu p to rounding
+    slid = np.where(abs(slid) > ROUNDING * s, slid, 0.0)
+    loss = [smooth.loss(pressure, traction=each) for each in tau] + 4 * tau * slid
     pairs = {"traction": (elements.traction(s), tau), "loss": (elements.loss(s), loss)}
     return replace(elements, misfit={name: float(abs(a / b - 1).max()) for name, (a, b) in pairs.items()})
 

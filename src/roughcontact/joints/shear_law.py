@@ -32,7 +32,7 @@ from roughcontact.materials import Elastic, reduced_modulus, solids_of
 from roughcontact.theory.joints.mindlin import pair_ratio
 from roughcontact.validation import Array, exactly_one, numeric, positive, positive_scalar, require
 
-__all__ = ["FLOWED", "ShearLaw", "shear_law", "slid"]
+__all__ = ["FLOWED", "ShearLaw", "shear_law"]
 
 ROUNDING = 1e-12  # of a traction
 BELOW = "p - tau/mu lies below the lowest load of the curve, and the gap at first touch is not known"
@@ -325,16 +325,9 @@ class ShearLaw:
         s = float(positive(value, "the displacement [m]", zero=True))
         tau = float(self.traction(s, pressure)) if s else 0.0
         require(not math.isnan(tau), BELOW, TOUCH, place="displacement")
-        return tau, float(slid(self, s, tau, pressure))
-
-
-def slid(law: ShearLaw, displacement: float | Array, traction: float | Array, pressure: float) -> Array:
-    """Return the distance that the surfaces slide before the reversal [m].
-
-    Shortly before gross slip, it corrects for a traction that is mu p to rounding.
-    """
-    beyond = displacement - law.displacement(traction, pressure)
-    return np.where(abs(beyond) > ROUNDING * np.asarray(displacement), beyond, 0.0)
+        # Shortly before gross slip, it corrects for a traction that is mu p to rounding.
+        slid = s - float(self.displacement(tau, pressure))
+        return tau, slid if abs(slid) > ROUNDING * s else 0.0
 
 
 @numeric(shear_strength="Pa")
