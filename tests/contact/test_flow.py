@@ -197,7 +197,7 @@ def test_work_is_elastic_energy_and_flow(pressed):
     |change of slope| (step)^2/8 in each interval where a cell changes."""
     body, operator, force, hardness = pressed
     top = rc.press(body, MODULUS, force=force, operator=operator, hardness=hardness, **TIGHT)
-    steps = 75
+    steps = 150
     depths = np.linspace(0, top.depth, steps + 1)[1:]
     given = {"operator": operator, "hardness": hardness, **TIGHT}
     found = list(rc.loading_path(body, MODULUS, depths=depths, **given))

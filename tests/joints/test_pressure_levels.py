@@ -142,10 +142,8 @@ class TestSlowly:
     @pytest.mark.parametrize("phase", [math.pi / 4, math.pi / 2])
     def test_out_of_phase(self, phase):
         loads = {"pressure": self.mean, "swing": 0.4, "share": 0.41}
-        errors, law = (
-            [],
-            self.law(cycles(phase, 48, **loads)[0]),
-        )  # the coarser steps have some of its pressures
+        law = self.law(cycles(phase, 48, **loads)[0])  # the coarser steps have some of its pressures
+        errors = []
         for steps in (12, 24, 48):
             p, tau = cycles(phase, steps, **loads)
             levels, (moved, lost) = law.history(p, tau), self.slowly(p, tau)

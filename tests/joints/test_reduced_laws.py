@@ -48,7 +48,7 @@ def test_elements_meet_the_backbone_at_their_slips(law, pressure):
 
 
 def test_the_last_slip_may_lie_beyond_the_law_by_rounding():
-    """Of the gap of the lowest load no pressure is known at 0.25, so that the elements were refused."""
+    """At a pressure of 0.25, rounding puts the gap of the last slip beyond the gap of the lowest load."""
     elements = exponential().elements(0.25, count=8, first=0.5)
     assert max(elements.misfit.values()) < 0.3
 

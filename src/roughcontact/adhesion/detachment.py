@@ -35,7 +35,7 @@ from roughcontact.validation import Array, Mask
 __all__ = ["Detachment", "StuckContact", "mean_compliance"]
 
 LARGEST = 6000  # cells of a matrix
-ROWS = 64  # of it, which are worked on at a time
+ROWS = 64  # rows of it that are changed at a time
 
 
 @dataclass(frozen=True, slots=True)
@@ -222,7 +222,7 @@ class StuckContact:
         return float(lost)
 
     def _take_out(self, index: int, column: Array) -> None:
-        """Leave a cell out of the inverse, in place: by so few rows at a time that a cache holds them."""
+        """Remove the row and the column of a cell from the inverse, in place, a few rows at a time."""
         inverse, row = self.inverse, self.inverse[index].copy()
         kept, left = np.delete(np.arange(len(row)), index), len(row) - 1
         for start in range(0, left, ROWS):

@@ -53,7 +53,7 @@ _BEGINNING = 512
 # during reading are suppressed: the settings of the process stay as they are.
 _TALKATIVE = ("tifffile", "igor2.binarywave")
 _READING: ContextVar[bool] = ContextVar("_READING", default=False)
-# Among texts, only those of two bytes a letter hold zero bytes; the library reads them by these marks.
+# Of all texts, only those in UTF-16 hold zero bytes; the library recognises them by these marks.
 _WIDE = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 _EXPORT = "export it as X3P, Gwyddion text or .npz"
 _REMEDY = f"check that the file is whole, or {_EXPORT}"
@@ -70,11 +70,11 @@ for _name in _TALKATIVE:
 class _Binary(BoundedStream):
     """The content of a file that is no text.
 
-    The library tries its readers of texts first, each of them up to 600 times, before that of the format.
+    The library tries its readers of texts many times before it tries those of other formats.
     """
 
     def read1(self, size: int | None = -1, /) -> bytes:
-        """End a reader of texts: only texts are read so."""
+        """Raise an error in a reader of texts, which ends it; readers of other formats do not call this."""
         raise RuntimeError("it is not a text: it holds zero bytes")
 
 

@@ -70,6 +70,7 @@ def _fields(header: bytes) -> dict[str, str]:
 def _count(fields: dict[str, str], name: str) -> int:
     text = fields.get(name, "")
     digits = text.lstrip("0")
+    # A positive whole number of up to ten digits.
     if re.fullmatch("[1-9][0-9]{0,9}", digits) is None:
         raise ContentError(f"its header states {text!r} for {name}", _AGAIN)
     return int(digits)

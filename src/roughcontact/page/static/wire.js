@@ -34,7 +34,7 @@ export async function upload(file) {
 
 // Send a request; every message is passed to `heard(header, data)` as it comes, and the last one is returned.
 export function request(queue, job, recipe, more, heard) {
-  // Not that of a request before a reload, whose late stop the session may hold.
+  // The key is unique across reloads: the session may still hold a late stop of an earlier request.
   const key = `${performance.timeOrigin}-${++count}`;
   const body = JSON.stringify({ queue, job, recipe, more, key });
   const stop = () => asked(`/stop?session=${session}&queue=${queue}&key=${key}`, { method: "POST" });
