@@ -28,8 +28,9 @@ BIN := $(ENV)/bin
 BENCH_ENV := build/bench-env
 MPI_ENV := build/mpi-env
 ASKED := pyproject.toml reproduction/pyproject.toml
-# Dependencies come as wheels: nothing is compiled here, and a missing wheel is an error at once.
-INSTALL = -m pip install -qq --disable-pip-version-check --only-binary=:all:
+# Dependencies come as wheels: nothing is built here, and a missing wheel is an error at once. Python compiles a module
+# when it is first imported: most modules of PyTorch, JAX and SciPy never are, and to compile all takes a minute.
+INSTALL = -m pip install -qq --disable-pip-version-check --only-binary=:all: --no-compile
 # Without a network six tries, pip's own number, take as long as a hang.
 export PIP_RETRIES ?= 2
 export PIP_DEFAULT_TIMEOUT ?= 15
@@ -82,7 +83,7 @@ ccx:
 # to the network and reads through it.
 mpi: $(MPI_ENV)/.ready
 	@if $(MPI_ENV)/bin/python -c "import mpi4py.MPI" 2>/dev/null; \
-	  then $(ONE_THREAD) $(MPI_ENV)/bin/python -m pytest -q tests/slabs $(ARGS) \
+	  then $(ONE_THREAD) $(MPI_ENV)/bin/python -m pytest -q tests/slabs/test_mpi*.py $(ARGS) \
 	    && echo "mpi: OK" || { echo "mpi: FAILED"; exit 1; }; \
 	  else echo "mpi: cannot be had here, the tests on several processes are skipped"; fi
 

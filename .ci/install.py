@@ -22,8 +22,8 @@ from pip._vendor.packaging.requirements import Requirement
 
 # Of the package, and of that of the thesis' figures.
 FOLDERS = (".", "./reproduction")
-# Wheels only: nothing is compiled here, and a missing wheel is an error at once.
-PIP = ("-m", "pip", "install", "-q", "--disable-pip-version-check", "--only-binary=:all:")
+# Wheels only: nothing is built here, and a missing wheel is an error at once. Python compiles what is imported.
+PIP = ("-m", "pip", "install", "-q", "--disable-pip-version-check", "--only-binary=:all:", "--no-compile")
 
 
 def main(stamp: Path, words: str, *extras: str) -> None:

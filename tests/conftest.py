@@ -9,4 +9,5 @@ gc.disable()
 
 def pytest_collection_finish():
     gc.freeze()
+    gc.set_threshold(20_000)  # a search for garbage goes through all that the libraries hold
     gc.enable()

@@ -251,7 +251,7 @@ def test_an_insulator_and_no_contact():
 def test_units_of_the_drop(rough):
     import pint
 
-    units = pint.UnitRegistry()
+    units = pint.get_application_registry()
     assert rc.contact_flux(rough, **COPPER, drop=20 * units.mV).drop == pytest.approx(0.02)
     assert rc.contact_flux(rough, **STEEL, drop=2 * units.kelvin).drop == 2
     with pytest.raises(ValueError, match="drop must be in K"):

@@ -11,7 +11,7 @@ ROUGH = rc.self_affine(
     rc.Grid((16, 24), (2e-6, 1e-6), (True, False)), 0.8, 1e-7, np.random.default_rng(3), amplitudes="gaussian"
 )
 STEPS = {"y": np.arange(4) * 2.0, "x": np.arange(6) * 0.5}
-U = pint.UnitRegistry()
+U = pint.get_application_registry()
 HEIGHTS = np.arange(24.0).reshape(4, 6)
 
 

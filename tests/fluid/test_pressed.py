@@ -272,7 +272,7 @@ def test_a_film_has_the_unit_of_its_kind():
     pytest.importorskip("pint")
     import pint
 
-    unit, solution = pint.UnitRegistry(), steel()
+    unit, solution = pint.get_application_registry(), steel()
     found = rc.joint_conductance(solution, resistivities=(1e-8, 1e-8), film=1e-3 * unit.ohm * unit.mm**2)
     assert found.film == pytest.approx(1e-9)
     with pytest.raises(ValueError, match="film must be in"):

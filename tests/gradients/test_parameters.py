@@ -106,7 +106,7 @@ def test_the_radius_of_hertz():
 
 def test_a_radius_with_a_unit():
     found = rc.sensitivity(rc.press(ball(33), MODULUS, force=1e-3))
-    units = pint.UnitRegistry()
+    units = pint.get_application_registry()
     assert found.to_radius(units.Quantity(1000.0, "mm")) == found.to_radius(1.0)
     for wrong in (0.0, -1.0, "1 m", units.Quantity(1.0, "N")):
         with pytest.raises(rc.InputError, match="radius"):

@@ -195,7 +195,7 @@ def test_the_fitted_law_meets_a_power_law(a):
 
 
 def test_a_law_takes_units():
-    U = pint.UnitRegistry()
+    U = pint.get_application_registry()
     assert LAW.gap_at(1 * U.MPa) == LAW.gap_at(1e6)
     assert LAW.pressure_at(LAW.gap_at(1e6) * 1e9 * U.nm) == pytest.approx(1e6, rel=1e-9)
     with pytest.raises(InputError, match="Pa"):

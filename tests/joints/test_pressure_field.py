@@ -24,7 +24,7 @@ def test_a_field_holds_its_force_and_area():
 
 
 def test_pressures_and_cells_carry_units():
-    units = pint.UnitRegistry()
+    units = pint.get_application_registry()
     field = rc.PressureField(np.ones((2, 3)) * units.MPa, 1 * units.mm)
     assert field.force == pytest.approx(6.0)
 

@@ -220,7 +220,7 @@ def coulomb(matrix, limit, slip, start, total):
 
 
 def test_numbers_with_units_and_the_answer():
-    U = pint.UnitRegistry()
+    U = pint.get_application_registry()
     history = LAW.history([0.5, 0.5] * U.Pa, [0.0, 50.0] * U.mPa)
     assert history.displacement[1] == LAW.displacement(0.05, 0.5)
     assert len(history) == 2

@@ -120,7 +120,7 @@ def test_iwans_distribution_of_an_exponential_law():
 
 
 def test_numbers_with_units():
-    U = pint.UnitRegistry()
+    U = pint.get_application_registry()
     law = power(0.9)
     elements = law.elements(500 * U.mPa, count=4)
     assert elements.pressure == pytest.approx(0.5)

@@ -265,7 +265,7 @@ def test_arrays_of_tractions_and_pressures():
 
 
 def test_numbers_with_units():
-    U = pint.UnitRegistry()
+    U = pint.get_application_registry()
     assert LAW.displacement(1 * U.MPa, 100 * U.MPa) == LAW.displacement(1e6, 1e8)
     assert LAW.loss(100 * U.MPa, traction=5 * U.MPa) == LAW.loss(1e8, traction=5e6)
     assert LAW.cycle(1e8, displacement=20 * U.nm).loss == pytest.approx(

@@ -448,7 +448,7 @@ MAP, LOAD, BODIES = Example(example="ground"), OneLoad(force="1mN"), Bodies(modu
 
 
 def test_numbers_and_quantities_of_python_are_values():
-    ureg = pytest.importorskip("pint").UnitRegistry()
+    ureg = pytest.importorskip("pint").get_application_registry()
     for load in (0.001, np.float64(0.001), "1mN", ureg.Quantity(1.0, "mN"), np.float32(0.001)):
         [number] = OneLoad(force=load).named(None).values()
         assert number == pytest.approx(0.001, rel=1e-7)

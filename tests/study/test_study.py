@@ -276,7 +276,7 @@ def test_deep_nesting_of_values_is_refused():
         Study(**(GIVEN | {"parameters": {"hurst": value}}))
 
 
-U = pint.UnitRegistry()
+U = pint.get_application_registry()
 
 
 @pytest.mark.parametrize(

@@ -46,7 +46,7 @@ from roughcontact.theory.stiffness_laws import finite_size, pohrt_popov, rough_s
 ROUGH = rc.Moments(1e-14, 1e-2, 1e12)
 SPHERE = hertz.law(1e-2, 1e9)
 CELL = finite_size.Cell(0.8, 1e-7, 1e-3)
-MILLIMETRE = pint.UnitRegistry().Quantity(1.0, "mm")  # once: reading the definitions takes a second
+MILLIMETRE = pint.get_application_registry().Quantity(1.0, "mm")
 # Good values by the names of parameters, and where a name means something else in one place.
 GOOD = {
     **{

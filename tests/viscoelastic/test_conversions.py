@@ -124,7 +124,7 @@ class TestFitted:
         assert two.band == pytest.approx(one.band)
 
     def test_units_of_frequencies_are_not_confused(self):
-        U = pint.UnitRegistry()
+        U = pint.get_application_registry()
         for name, values in (
             ("frequencies", self.omega * U("rad/s")),
             ("angular_frequencies", self.omega * U.kHz),
