@@ -138,8 +138,8 @@ $(MPI_ENV)/.ready: $(ENV)/.ready-to-test
 	@{ $(MPI_ENV)/bin/python $(INSTALL) -e ".[mpi]" && { command -v mpiexec || $(MPI_ENV)/bin/python $(INSTALL) mpich; }; } >/dev/null 2>&1 || true
 	@touch $@
 
-$(ENV)/.ready-to-write: $(ENV)/.ready-to-read $(ASKED)
-	@$(BIN)/python .ci/install.py $@ "Installing what the site is built with ..." docs
+$(ENV)/.ready-to-write: $(ENV)/.ready $(ASKED)
+	@$(BIN)/python .ci/install.py $@ "Installing what the site is built with ..." formats docs
 	@$(BIN)/python $(INSTALL) -e ".[browser]" 2>/dev/null || echo "playwright: not found here, the site's search is not asked"
 
 # The other programs live in an environment of their own; some of them are under licences that this
