@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-import scipy.fft
 
 from roughcontact.errors import InputError, about
 from roughcontact.grid import Grid
@@ -88,6 +87,8 @@ def random_heights(
 
 
 def _heights(grid: Grid, sized: SizedSpectrum, rng: RngLike, amplitudes: Amplitudes, nodal: bool) -> Array:
+    import scipy.fft  # not needed to press measured surfaces
+
     shape = tuple(n - 1 for n in grid.shape) if nodal else grid.shape
     amplitude = wave_amplitudes(
         sized.spectrum, shape, grid.spacing, sized.support, rms=sized.rms, rms_band=sized.rms_band
