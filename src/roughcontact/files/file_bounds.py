@@ -20,8 +20,7 @@ BYTES_TO_LOOK = 84
 _BOUNDED = (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)
 # To detect a format, the beginning is read about forty times: hundreds of times the size of a small file. Beyond
 # that, reading a whole file takes up to 55 times its size, and a call for every 60 bytes.
-_BYTES, _TIMES = 500_000_000, 500
-_CALLS, _BYTES_A_CALL = 100_000, 10
+_BYTES, _TIMES, _BYTES_A_CALL = 500_000_000, 500, 10
 
 
 def require_memory(need: int) -> None:
@@ -82,12 +81,13 @@ class BoundedStream(BytesIO):
         At a read beyond the bounds, and at every later read.
     """
 
+    calls = 100_000  # beside one for every ten bytes: a text of two kilobytes takes 25 000 to be refused
+
     def __init__(self, data: bytes, name: str) -> None:
         super().__init__(data)
-        self.name = name
-        self._size = len(data)
+        self.name, self._size = name, len(data)
         self._bytes = _BYTES + _TIMES * len(data)
-        self._calls = _CALLS + len(data) // _BYTES_A_CALL
+        self._calls = self.calls + len(data) // _BYTES_A_CALL
         self._furthest = 0
 
     @property
