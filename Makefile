@@ -29,7 +29,7 @@ BENCH_ENV := build/bench-env
 MPI_ENV := build/mpi-env
 ASKED := pyproject.toml reproduction/pyproject.toml
 # Dependencies come as wheels: nothing is built here, and a missing wheel is an error at once. Python compiles a module
-# when it is first imported: most modules of PyTorch, JAX and SciPy never are, and to compile all takes a minute.
+# when it is first imported: most modules of PyTorch, JAX and SciPy never are.
 INSTALL = -m pip install -qq --disable-pip-version-check --only-binary=:all: --no-compile
 # Without a network six tries, pip's own number, take as long as a hang.
 export PIP_RETRIES ?= 2

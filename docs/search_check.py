@@ -96,7 +96,7 @@ QUESTIONS = {
     "all claims of the thesis": "evidence/reproduction-claims",
     "the figures of the thesis": "evidence/reproduction-figures",
 }
-FIRST = 8  # pages of an answer that are read
+FIRST = 8  # pages of an answer that are waited for and printed
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 
 
@@ -146,12 +146,12 @@ def browser() -> Iterator:
 
 
 def answers(page, site: str, question: str) -> list[str]:
-    """Return the pages that the search names first, the best of all at the head."""
+    """Return the first pages that the search lists, the best one first."""
     page.goto(f"{site}search.html?{urlencode({'q': question})}")
-    links = page.locator("ul.search li > a")
-    # The search goes on to fetch every page that it names, hundreds for a common word.
-    links.nth(FIRST - 1).or_(page.locator("p.search-summary:not(:empty)")).first.wait_for()
-    links = links.evaluate_all("all => all.map(a => new URL(a.href).pathname)")
+    listed = page.locator("ul.search li > a")
+    # The search fetches every page that it lists, and writes its summary only after the last one.
+    listed.nth(FIRST - 1).or_(page.locator("p.search-summary:not(:empty)")).first.wait_for()
+    links = listed.evaluate_all("all => all.map(a => new URL(a.href).pathname)")
     return list(dict.fromkeys(link.removeprefix("/").removesuffix(".html") for link in links))
 
 

@@ -221,7 +221,7 @@ def whole():
 
 @pytest.mark.parametrize("name", ["scan.jpk", "park.tiff"])
 def test_pages_without_an_end_are_refused_soon(whole, put, monkeypatch, name):
-    """The last page of a TIFF names the first as the next: of the two readers of these formats one notices."""
+    """The last page of a TIFF names the first one as the next; the reader of Park's files follows it for ever."""
     data = bytearray(whole(name))
     (first,) = page = struct.unpack_from("<I", data, 4)
     while page != (0,):
@@ -235,7 +235,7 @@ def test_pages_without_an_end_are_refused_soon(whole, put, monkeypatch, name):
     )
     with pytest.raises(rc.ReadError):
         rc.read(put("a.tiff", bytes(data)))
-    assert len(reads) < 11_000  # of 0.1 ms each
+    assert len(reads) < 11_000
 
 
 def test_a_wrong_number_of_rows_shows_at_the_end_of_the_file(whole, put):

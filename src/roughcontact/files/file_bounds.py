@@ -81,7 +81,7 @@ class BoundedStream(BytesIO):
         At a read beyond the bounds, and at every later read.
     """
 
-    calls = 100_000  # beside one for every ten bytes: a text of two kilobytes takes 25 000 to be refused
+    calls = 100_000  # besides one for every ten bytes: many readers read a text line by line
 
     def __init__(self, data: bytes, name: str) -> None:
         super().__init__(data)

@@ -73,7 +73,7 @@ class _Binary(BoundedStream):
     The library tries its readers of texts many times before it tries those of other formats.
     """
 
-    calls = 10_000  # others take a few hundred; a page of a TIFF that leads to itself takes four, and a millisecond
+    calls = 10_000  # no reader takes lines, and one follows a page of a TIFF that names itself until they are used up
 
     def read1(self, size: int | None = -1, /) -> bytes:
         """Raise an error in a reader of texts, which ends it; readers of other formats do not call this."""
