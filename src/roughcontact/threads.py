@@ -190,7 +190,7 @@ def _come_in(thread: int) -> None:
     with no_fork:
         _inside.add(thread)
         if len(_inside) == 1:
-            _before[:] = [(library, library.num_threads) for library in _shared()]
+            _before[:] = [(library, n) for library in _shared() if (n := library.num_threads) > 1]
             for library, _ in _before:
                 _set(library, 1)
 

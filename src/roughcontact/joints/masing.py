@@ -11,8 +11,9 @@ import numpy as np
 from roughcontact.guesses import hinted
 from roughcontact.validation import Array
 
-__all__ = ["ShearCycle", "masing_cycle"]
+__all__ = ["ROUNDING", "ShearCycle", "distance_slid", "masing_cycle"]
 
+ROUNDING = 1e-12  # of a traction
 _POINTS = 101  # of a branch of a cycle
 
 
@@ -45,6 +46,15 @@ class ShearCycle:
     traction: Array
     loss: float
     damping: float
+
+
+def distance_slid(displacement: Array, stuck: Array) -> Array:
+    """Return how far surfaces slide beyond the displacement at which they still stick [m]; zero if it is but rounding.
+
+    Where the traction is mu p to rounding, the difference of both is not zero.
+    """
+    slid = displacement - stuck
+    return np.where(abs(slid) > ROUNDING * displacement, slid, 0.0)
 
 
 def masing_cycle(rise: Callable[[Array], Array], tau: float, slid: float, loss: float) -> ShearCycle:

@@ -16,7 +16,8 @@ import numpy as np
 
 from roughcontact.errors import InputError
 from roughcontact.guesses import hinted
-from roughcontact.joints.shear_law import BELOW, ROUNDING, TOUCH, ShearLaw
+from roughcontact.joints.masing import ROUNDING
+from roughcontact.joints.shear_law import BELOW, TOUCH, ShearLaw
 from roughcontact.units import in_si
 from roughcontact.validation import Array, finite, positive, require
 

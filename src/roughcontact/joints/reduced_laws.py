@@ -13,7 +13,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from roughcontact.guesses import hinted
-from roughcontact.joints.shear_law import BELOW, ROUNDING, TOUCH, ShearLaw
+from roughcontact.joints.masing import distance_slid
+from roughcontact.joints.shear_law import BELOW, TOUCH, ShearLaw
 from roughcontact.units import in_si
 from roughcontact.validation import Array, numeric, positive, positive_scalar, require, whole
 
@@ -165,8 +166,7 @@ def jenkins_elements(
     elements = JenkinsElements(stiffness, slip, pressure, {})
     smooth = replace(law, normal=replace(law.normal, cells=np.full_like(law.normal.cells, np.inf)))
     s = np.geomspace(min(_RESOLVED * slip[0], last), last, _AMPLITUDES)
-    slid = s - law.displacement(tau := backbone(s), pressure)  # not 0 where tau is mu p to rounding
-    slid = np.where(abs(slid) > ROUNDING * s, slid, 0.0)
+    slid = distance_slid(s, law.displacement(tau := backbone(s), pressure))
     loss = [smooth.loss(pressure, traction=each) for each in tau] + 4 * tau * slid
     pairs = {"traction": (elements.traction(s), tau), "loss": (elements.loss(s), loss)}
     return replace(elements, misfit={name: float(abs(a / b - 1).max()) for name, (a, b) in pairs.items()})

@@ -24,7 +24,7 @@ from roughcontact.contact.loop import Loop
 from roughcontact.friction.slip_solution import UNLIKE
 from roughcontact.guesses import hinted
 from roughcontact.halfspace.shear.shear_operator import dundurs_parameter
-from roughcontact.joints.masing import ShearCycle, masing_cycle
+from roughcontact.joints.masing import ROUNDING, ShearCycle, distance_slid, masing_cycle
 from roughcontact.joints.normal_law import NormalLaw, normal_law
 from roughcontact.labels.note import Note, Rank, in_order
 from roughcontact.material import Solid
@@ -34,7 +34,6 @@ from roughcontact.validation import Array, exactly_one, numeric, positive, posit
 
 __all__ = ["FLOWED", "ShearLaw", "shear_law"]
 
-ROUNDING = 1e-12  # of a traction
 BELOW = "p - tau/mu lies below the lowest load of the curve, and the gap at first touch is not known"
 FLOWED = "The surface has flowed: junction growth and the plastic flow under shear are neglected."
 TOUCH = "give a smaller amplitude, or use a curve with smaller loads, of a periodic map without missing cells"
@@ -325,9 +324,7 @@ class ShearLaw:
         s = float(positive(value, "the displacement [m]", zero=True))
         tau = float(self.traction(s, pressure)) if s else 0.0
         require(not math.isnan(tau), BELOW, TOUCH, place="displacement")
-        # Shortly before gross slip, it corrects for a traction that is mu p to rounding.
-        slid = s - float(self.displacement(tau, pressure))
-        return tau, slid if abs(slid) > ROUNDING * s else 0.0
+        return tau, float(distance_slid(np.array(s), self.displacement(tau, pressure)))
 
 
 @numeric(shear_strength="Pa")

@@ -150,18 +150,8 @@ def joint_emulator() -> JointEmulator:
     """Return the emulator of the package, see ``benchmarks/joint_table.py``."""
     text = files(__package__).joinpath("joint_table.json").read_text(encoding="utf-8")
     table = json.loads(text)
-    return JointEmulator(
-        nodes=np.array(table["nodes"]),
-        mean=np.array(table["mean"]),
-        deviation=np.array(table["deviation"]),
-        correlation=np.array(table["correlation"]),
-        misfit=np.array(table["misfit"]),
-        departure=np.array(table["departure"]),
-        flow=np.array(table["flow"]),
-        flow_misfit=table["flow_misfit"],
-        freedom=table["freedom"],
-        inflation=table["inflation"],
-    )
+    arrays = {name: np.array(value) for name, value in table.items() if isinstance(value, list)}
+    return JointEmulator(**{**table, **arrays})
 
 
 def _weights(nodes: Array, pressure: Array) -> Array:

@@ -80,10 +80,29 @@ def test_one_value_takes_no_table_of_others(name, monkeypatch):
         type(INFLUENCES[name]), "table", lambda self, shape: made.append(shape) or table(self, shape)
     )
     tables = Tables(INFLUENCES[name], LIMIT)
-    nothing = np.zeros(1, np.intp)
-    first = tables.at(nothing, nothing)
-    assert tables.at(nothing, nothing) == first
+    here = np.zeros(1, np.intp)
+    first = tables.matrix(here, here)
+    assert first.shape == (1, 1)
+    first *= 2  # it is the caller's own
+    np.testing.assert_array_equal(2 * tables.matrix(here, here), first)
     assert made == [(1, 1)]
+
+
+@pytest.mark.parametrize("name", INFLUENCES)
+def test_a_matrix_is_taken_from_the_first_table(name, monkeypatch):
+    """Not from single values, which cost much."""
+    one = INFLUENCES[name]
+    rows, columns = np.array([3, 60, 7]), np.array([5, 2, 64])
+    wanted = one.at(rows[:, None] - rows, columns[:, None] - columns)
+    monkeypatch.setattr(type(one), "at", lambda self, *offsets: pytest.fail("single values are computed"))
+    tables = Tables(one, LIMIT)
+    same(tables.matrix(rows, columns), wanted)
+    assert tables.has((FIRST_TABLE, FIRST_TABLE))
+    assert not tables.has(LIMIT)
+    assert tables.reach(rows, columns) == (58, 63)
+    tables.table(LIMIT)
+    assert tables.reach(rows, columns) == LIMIT  # no need to look at all cells
+    same(tables.matrix(rows, columns), wanted)
 
 
 @pytest.mark.parametrize("shape", [(8, 8), (40, 24), (16, 200), (152, 208), (300, 8), (8, 300)], ids=str)

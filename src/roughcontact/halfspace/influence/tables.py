@@ -221,7 +221,7 @@ class Tables:
         """Whether a table to both sides of this shape is at hand."""
         return self._largest.covers(shape)
 
-    def at(self, rows: Offsets, columns: Offsets, reach: tuple[int, int] | None = None) -> Array:
+    def at(self, rows: Offsets, columns: Offsets, reach: tuple[int, ...] | None = None) -> Array:
         """Return single values [m/Pa], from the table where it holds them.
 
         A table is made as soon as single values have cost as much as it would. `reach` is the shape of the
@@ -229,9 +229,8 @@ class Tables:
         """
         a, b = np.abs(rows), np.abs(columns)
         needed = reach or (int(a.max(initial=0)) + 1, int(b.max(initial=0)) + 1)
-        if not _holds(self._largest.values.shape, needed):
-            if min(self._largest.values.shape) < FIRST_TABLE and needed != (1, 1):
-                self.table(tuple(min(FIRST_TABLE, end) for end in self.limit))
+        self._begin(needed)
+        if not self.has(needed):
             self._computed += np.broadcast(a, b).size
             if needed[0] * needed[1] <= self._computed:
                 self.table(needed)
@@ -248,6 +247,15 @@ class Tables:
     def has(self, shape: tuple[int, ...]) -> bool:
         """Whether a table of this shape is at hand."""
         return _holds(self._largest.values.shape, shape)
+
+    def reach(self, rows: Offsets, columns: Offsets) -> tuple[int, ...]:
+        """Return the shape of a table of all offsets between cells: the whole grid's if it is at hand, or the least."""
+        return self.limit if self.has(self.limit) else spans(rows, columns)
+
+    def _begin(self, shape: tuple[int, ...]) -> None:
+        """Make the first table, unless one of this shape is at hand."""
+        if min(self._largest.values.shape) < FIRST_TABLE and not self.has(shape):
+            self.table(tuple(min(FIRST_TABLE, end) for end in self.limit))
 
     def _roomy(self, shape: tuple[int, ...]) -> tuple[int, ...]:
         """Return the shape of a new table: at least `shape` and the present one, with spare room after the first."""
@@ -279,8 +287,11 @@ class Tables:
 
     def matrix(self, rows: Offsets, columns: Offsets) -> Array:
         """Return the matrix [m/Pa] between cells."""
-        reach, matrix = spans(rows, columns), np.empty((len(rows), len(rows)))
-        large = self._largest
+        if len(rows) == 1:  # every operator is asked for it
+            return self.table((1, 1)).copy()
+        reach, matrix = self.reach(rows, columns), np.empty((len(rows), len(rows)))
+        self._begin(reach)
+        large = self._largest  # another thread may put another in its place
         if is_available() and _holds(large.values.shape, reach):
             places, width = (np.ascontiguousarray(k, np.int64) for k in (rows, columns)), large.whole.shape[1]
             between = functions("dense_kernels", "float64")["influence_between"]

@@ -11,7 +11,7 @@ import numpy.typing as npt
 
 from roughcontact.cached import cached_property
 from roughcontact.grid import Grid
-from roughcontact.halfspace.influence.tables import Tables, blocks, spans
+from roughcontact.halfspace.influence.tables import Tables, blocks
 from roughcontact.halfspace.operators.operator import Capabilities, capabilities
 from roughcontact.halfspace.sums.direct_sum import DirectSum
 from roughcontact.halfspace.sums.particle_mesh import ListParticleMesh, ParticleMesh
@@ -90,7 +90,7 @@ class CellsOperator:
         """Return the displacement [m] under `pressure` [Pa], both of shape (n,)."""
         loaded = np.flatnonzero(pressure)
         pairs = len(loaded) * len(pressure)
-        reach = spans(self.rows, self.columns)  # shape of the table that would hold every offset
+        reach = self.influence.reach(self.rows, self.columns)
         table = 0.0 if self.influence.has(reach) else PAIRS_PER_ENTRY * math.prod(reach)
         if pairs < max(PAIRS_FOR_TILES, table) or not loader.is_available():
             return self._by_cells(pressure, loaded, reach)
@@ -99,7 +99,7 @@ class CellsOperator:
             return self._by_the_plane(pressure, loaded)
         return self._tiles.scatter(self._sum.apply(self._tiles.gather(pressure)))
 
-    def _by_cells(self, pressure: Array, loaded: Cells, reach: tuple[int, int]) -> Array:
+    def _by_cells(self, pressure: Array, loaded: Cells, reach: tuple[int, ...]) -> Array:
         p = pressure[loaded]
         displacement = np.empty(len(pressure))
         for part in blocks(len(self.rows), len(loaded)):
