@@ -10,6 +10,8 @@ import oracles
 import pytest
 
 import roughcontact as rc
+from roughcontact.halfspace.influence.tables import Periodic
+from roughcontact.halfspace.operators import build
 from roughcontact.halfspace.operators.build import singly_periodic
 from roughcontact.halfspace.operators.layer import layer
 from roughcontact.halfspace.operators.line_contact import LineOperator
@@ -288,3 +290,38 @@ def test_what_has_no_matrix_is_asked_again():
         self_influence(body)
     del body.as_matrix
     assert self_influence(body) == 2.0
+
+
+@pytest.mark.parametrize("periodic", [False, True, (True, False)], ids=str)
+def test_a_small_half_space_is_made_once(periodic):
+    """A load on a small surface takes no longer than its operator; what it finds does not depend on earlier loads."""
+    grid = rc.Grid((24, 30), 0.5, periodic)
+    body = rc.half_space(grid, 2.0)
+    assert rc.half_space(rc.Grid((24, 30), 0.5, periodic), 2.0) is body
+    assert rc.half_space(grid, 2.5) is not body
+    assert rc.half_space(rc.Grid((24, 30), 0.25, periodic), 2.0) is not body
+    assert rc.half_space(grid, 2.0, method="dense") is not body
+    large = rc.Grid((64, 65), 0.5)
+    assert rc.half_space(large, 2.0) is not rc.half_space(large, 2.0)  # its tables are not held
+
+    surface = rc.Surface(0.1 * np.random.default_rng(0).random(grid.shape), grid)
+    loads: list[dict] = [{"depth": 0.01}, {"depth": 0.04}, {"force": 0.5}]
+    fresh = []
+    for load in loads:
+        build._small_body.cache_clear()
+        fresh.append(rc.press(surface, 2.0, **load))
+    for first, load in reversed([*zip(fresh, loads, strict=True)]):  # in another order, by one operator
+        again = rc.press(surface, 2.0, **load)
+        np.testing.assert_array_equal(again.pressure, first.pressure)
+        assert (again.depth, again.residual, again.steps) == (first.depth, first.residual, first.steps)
+
+
+def test_the_table_of_a_small_half_space_is_made_once(monkeypatch):
+    made = []
+    table = Periodic.table
+    monkeypatch.setattr(Periodic, "table", lambda self, shape: made.append(shape) or table(self, shape))
+    grid = rc.Grid((64, 64), 0.5, True)
+    build._small_body.cache_clear()
+    for seed in range(3):
+        rc.press(rc.Surface(np.random.default_rng(seed).random(grid.shape), grid), 2.0, force=0.5)
+    assert made == [(64, 64)]

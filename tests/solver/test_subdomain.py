@@ -164,7 +164,7 @@ def test_any_displacement_of_a_list_is_that_of_the_plane(rough):
 
 
 class TestParts:
-    GRID = rc.Grid((50, 70), (0.3, 0.5))
+    GRID = rc.Grid((62, 70), (0.3, 0.5))
 
     def block(self, rows, columns, share=0.3, seed=0):
         """Some cells of a box, with two opposite corners of it."""
@@ -182,8 +182,8 @@ class TestParts:
         for rows, columns in (
             (slice(10, 20), slice(30, 50)),
             (slice(0, 7), slice(60, 70)),
-            (slice(49, 50), slice(0, 1)),
-            (slice(0, 50), slice(0, 70)),
+            (slice(61, 62), slice(0, 1)),
+            (slice(0, 62), slice(0, 70)),
         ):
             cells = self.block(rows, columns)
             part = windows.operator_on(cells)
@@ -239,7 +239,12 @@ class TestParts:
 
     def test_where_the_box_is_the_whole(self):
         operator = rc.half_space(self.GRID, 2.0)
-        assert SubdomainSolver(operator).operator_on(self.block(slice(0, 50), slice(0, 70))).plane is operator
+        assert SubdomainSolver(operator).operator_on(self.block(slice(0, 62), slice(0, 70))).plane is operator
+
+    def test_on_a_small_grid_it_is_part_of_the_whole(self):
+        """Whose kernel is at hand."""
+        operator = rc.half_space(rc.Grid((64, 64), 1.0), 2.0)
+        assert SubdomainSolver(operator).operator_on(np.array([70, 71, 140])).plane is operator
 
     def test_of_a_line(self):
         operator = rc.line(rc.Grid(300, 0.5), 2.0)

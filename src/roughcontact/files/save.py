@@ -262,10 +262,7 @@ def _pressed(solution: Pressed) -> Solution | AdhesiveState | DetachmentState:
 def _fields(solution: Solution | AdhesiveState | DetachmentState, surface: Body | None) -> dict[str, Field]:
     heights = {} if surface is None else {"heights": surface.heights}
     return heights | {
-        "pressure": solution.pressure,
-        "displacement": solution.displacement,
-        "gap": solution.gap,
-        "contact": solution.contact,
+        name: getattr(solution, name) for name in ("pressure", "displacement", "gap", "contact")
     }
 
 

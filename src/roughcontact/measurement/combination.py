@@ -96,9 +96,8 @@ def combine(measurements: Sequence[Measurement], left_out: Sequence[str] = ()) -
     outliers = tuple(name for name, gone in zip(names, out, strict=True) if gone)
     notes = [*_notes(measurements, used), *_outlying_notes(names, rows, centres)]
     if left_out:
-        notes.append(
-            Note(Rank.LIMITED, f"not read, because their ending is not that of a map: {', '.join(left_out)}")
-        )
+        text = f"not read, because their ending is not that of a map: {', '.join(left_out)}"
+        notes.append(Note(Rank.LIMITED, text))
     if (single := int((count[some] == 1).sum())) > 0:
         text = f"{single} of {some.sum()} bins hold one map only: their scatter between places is that of neighbours"
         notes.append(Note(Rank.LIMITED, f"{text}, or not known"))

@@ -148,8 +148,7 @@ def flow_terms(pressure: Array, hardness: Array) -> Array:
 @cache
 def joint_emulator() -> JointEmulator:
     """Return the emulator of the package, see ``benchmarks/joint_table.py``."""
-    text = files(__package__).joinpath("joint_table.json").read_text(encoding="utf-8")
-    table = json.loads(text)
+    table = json.loads(files(__package__).joinpath("joint_table.json").read_text(encoding="utf-8"))
     arrays = {name: np.array(value) for name, value in table.items() if isinstance(value, list)}
     return JointEmulator(**{**table, **arrays})
 

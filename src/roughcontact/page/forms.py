@@ -82,16 +82,12 @@ def _form(part: type[Any]) -> dict[str, Any]:
 def _field(each: Field[Any], spec: Spec, kind: Any) -> dict[str, Any]:
     """Return the description of a field; its kind selects the input element."""
     kinds = {bool: "flag", bool | None: "truth", tuple[str, ...]: "texts"}
-    return {
+    stated = ("help", "choices", "names", "needs", "everyday")
+    return {name: getattr(spec, name) for name in stated} | {
         "name": each.name,
         "label": label_of(each.name),
-        "help": spec.help,
         "example": spec.example or "",
         "kind": kinds.get(kind, "choice" if spec.choices else "text"),
-        "choices": spec.choices,
-        "names": spec.names,
-        "needs": spec.needs,
-        "everyday": spec.everyday,
         "default": None if each.default is MISSING else each.default,
         "required": each.default is MISSING,
     }

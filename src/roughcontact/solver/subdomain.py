@@ -128,9 +128,9 @@ class SubdomainSolver:
         """Return the operator between the cells of a list, as part of the box that holds them, which is kept."""
         submatrix = self._can.submatrix
         assert submatrix is not None  # no list is made of others
-        if self.operator.grid.ndim == 1:
-            return submatrix(cells)
         shape = self.operator.grid.shape
+        if len(shape) == 1 or math.prod(shape) <= tuning.SMALL_GRID:
+            return submatrix(cells)
         indices = np.unravel_index(cells, shape)
         box = self._with_margin(tuple(slice(int(i.min()), int(i.max()) + 1) for i in indices))
         part = self.operator_on(box)
@@ -152,9 +152,8 @@ class SubdomainSolver:
         """Return a box with a margin: the last as long as it holds this one and is not much larger, or a new one."""
         shape = self.operator.grid.shape
         new = tuple(_widened(part, n) for part, n in zip(box, shape, strict=True))
-        last = None if self._box is None else self._box[0]
-        keep = last is not None and _holds(last, box) and _size(last) < tuning.KEPT_BOX * _size(new)
-        return last if keep and last else new
+        last = self.box
+        return last if last and _holds(last, box) and _size(last) < tuning.KEPT_BOX * _size(new) else new
 
     def _is_list_cheaper(self, candidates: Mask) -> bool:
         """Whether products between the candidates of a box cost less than those in the box."""

@@ -45,6 +45,7 @@ SINGLE_CELLS = 4_000  # cells from which on single precision halves the work: fe
 LOOKUPS = 1.5
 LIST_FILLING = 0.2  # of a box, up to which a list of cells is worth it where there are tiles
 LARGE_BOX = 2**21  # cells of a box from which on each pass over it is worth sparing
+SMALL_GRID = 4096  # cells up to which a list is part of the whole: a box costs a kernel of its own
 KEPT_BOX = 1.3  # times the cells of a new box, up to which the last box is kept: its kernel is at hand
 SMALLER_BOX = 0.5  # of the padded cells: a box that is worth a separate kernel
 

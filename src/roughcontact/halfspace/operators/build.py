@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 from typing import Literal
 
 from roughcontact.errors import InputError, about
 from roughcontact.grid import AnyGrid, Grid, RadialGrid
 from roughcontact.halfspace.influence.love_singly_periodic import SinglyPeriodicLove
 from roughcontact.halfspace.influence.ring_influence import ring_matrix
-from roughcontact.halfspace.influence.tables import Love, Periodic, Tables
+from roughcontact.halfspace.influence.tables import FIRST_TABLE, Love, Periodic, Tables
 from roughcontact.halfspace.operators.dense import DenseOperator
 from roughcontact.halfspace.operators.influence_operator import InfluenceOperator, Sum
 from roughcontact.halfspace.operators.operator import Operator, capabilities
@@ -71,15 +72,29 @@ def half_space(
             "rings have ring(grid, modulus), and a line must name its own "
             "operator: operator=line(grid, modulus), or foundation(grid, modulus)",
         )
-    if all(grid.periodic):
-        operator = InfluenceOperator(grid, Tables(Periodic(grid, value), grid.shape), positive=False)
-    elif any(grid.periodic):
-        operator = singly_periodic(grid, value)
-    else:
-        operator = InfluenceOperator(grid, Tables(Love(grid.spacing, value), grid.shape))
+    operator = (_small_body if grid.size <= FIRST_TABLE**2 else _body)(grid, value)
     if method == "dense":
         return DenseOperator(grid, operator.as_matrix(), operator.positive, value)
     return operator.summed(method)
+
+
+def _body(grid: Grid, modulus: float) -> InfluenceOperator:
+    if all(grid.periodic):
+        return InfluenceOperator(grid, Tables(Periodic(grid, modulus), grid.shape), positive=False)
+    if any(grid.periodic):
+        return singly_periodic(grid, modulus)
+    return InfluenceOperator(grid, Tables(Love(grid.spacing, modulus), grid.shape))
+
+
+@lru_cache(maxsize=8)
+def _small_body(grid: Grid, modulus: float) -> InfluenceOperator:
+    """Return one operator whenever it is asked for: to press a small surface takes as long as to make its operator.
+
+    The whole table is made at once, so that no number depends on what the operator did before.
+    """
+    body = _body(grid, modulus)
+    body.influence.table(grid.shape)
+    return body
 
 
 @numeric(modulus="Pa", reference_length="m")
