@@ -258,7 +258,7 @@ def _are_names(fields: list[list[str]]) -> bool:
 def _corner(rows: list[list[str]], where: list[str]) -> Corner | None:
     """Put NaN where the first row has a word, or nothing, above a column; return the original text there."""
     first = rows[0]
-    if len(rows) < 2 or not all(map(is_number, first[1:])):
+    if len(rows) < 2 or not first or not all(map(is_number, first[1:])):
         return None
     if len(first) == len(rows[1]) - 1 and is_number(first[0]):
         first.insert(0, "nan")

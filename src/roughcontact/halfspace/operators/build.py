@@ -90,7 +90,7 @@ def _body(grid: Grid, modulus: float) -> InfluenceOperator:
 def _small_body(grid: Grid, modulus: float) -> InfluenceOperator:
     """Return one operator whenever it is asked for: to press a small surface takes as long as to make its operator.
 
-    The whole table is made at once, so that no number depends on what the operator did before.
+    The whole table is made at once, so that what it gives does not depend on what it did before.
     """
     body = _body(grid, modulus)
     body.influence.table(grid.shape)
