@@ -88,6 +88,7 @@ def test_a_header_in_pixels_or_volts_leaves_the_size_or_unit_open(put):
         ("1,2,3,\n1,2,3\n", r"row 2 \(line 2\) holds 3 numbers, the first row 4; write nan"),
         ("1,2,3\n1,2;3\n", r"row 2 \(line 2\)"),
         ("1,2\n1;2\n", r"row 2 \(line 2\) has other separators than the first row"),
+        ("z[m]\n", r"row 1 \(line 1\), column 1: 'z\[m\]' is not a number"),
         ('"\n5\n', r"row 2 \(line 2\) holds 1 numbers, the first row 0"),
         ("1 2\n\n3 4\n", "line 2, empty or a comment, is a hole after row 1"),
         ("1 2\n3 4\n# second\n3 4\n", "line 3, empty or a comment, is a hole after row 2"),

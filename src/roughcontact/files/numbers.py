@@ -225,7 +225,8 @@ def _numbers(rows: list[tuple[int, str]]) -> Table:
     if all(len(row) > 1 and row[-1] == EMPTY for row in fields):
         fields = [row[:-1] for row in fields]
     names: tuple[str, ...] = ()
-    if _are_names(fields[:2]) or (len(fields[-1]) == 1 and _NAME.fullmatch(rows[0][1].strip())):
+    named = len(rows) > 1 and len(fields[-1]) == 1 and _NAME.fullmatch(rows[0][1].strip())
+    if named or _are_names(fields[:2]):
         names = (rows[0][1].strip(),)
         fields, where = fields[1:], where[1:]
     put_points(fields, where)
