@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from functools import cache
 
 import numpy as np
 import numpy.typing as npt
@@ -143,7 +144,8 @@ def _logarithmic(start: Array, length: Array) -> Iterator[tuple[Array, Array]]:
         yield first * np.expm1(x * span) + (first - start), share * span * t
 
 
-def _gauss(points: int) -> list[tuple[float, float]]:
+@cache
+def _gauss(points: int) -> tuple[tuple[float, float], ...]:
     """Nodes and weights of Gauss and Legendre on 0 to 1."""
     x, weights = np.polynomial.legendre.leggauss(points)
-    return list(zip(((x + 1) / 2).tolist(), (weights / 2).tolist(), strict=True))
+    return tuple(zip(((x + 1) / 2).tolist(), (weights / 2).tolist(), strict=True))

@@ -23,6 +23,7 @@ from scipy.optimize import minimize_scalar
 
 from roughcontact.errors import about
 from roughcontact.theory.adhesive.adhesive_sphere import DMTSphere, JKRSphere
+from roughcontact.theory.tools.quadrature import gauss
 from roughcontact.validation import Array, number, numeric, positive_scalar, shown
 
 __all__ = ["AdhesiveAsperities", "Limit"]
@@ -149,19 +150,17 @@ class AdhesiveAsperities:
     def _summed(self, separation: npt.ArrayLike, of_radius: Callable[[Array], Array]) -> Array:
         """Return the sum over the asperities in contact, per area."""
         s = np.asarray(number(separation, "separation [m]"))
-        nodes, weights = np.polynomial.legendre.leggauss(NODES)
+        nodes, weights = gauss(NODES)
         # At the smallest depth the force begins like a square root or a 3/2 power: as a function of t squared it is
         # smooth.
         low = np.maximum(s + self._least, -HIGHEST * self.std)
         span = np.sqrt(np.maximum(HIGHEST * self.std - low, 0.0))
-        t = 0.5 * span[..., None] * (nodes + 1)
-        depths = low[..., None] + t**2 - s[..., None]
-        density = np.exp(-0.5 * ((low[..., None] + t**2) / self.std) ** 2) / (
-            math.sqrt(2 * math.pi) * self.std
-        )
+        t = span[..., None] * nodes
+        heights = low[..., None] + t**2
+        depths = heights - s[..., None]
+        density = np.exp(-0.5 * (heights / self.std) ** 2) / (math.sqrt(2 * math.pi) * self.std)
         if self.limit == "jkr":
             radii = self._stuck.contact_radius(np.maximum(depths, self._least))
         else:
             radii = np.sqrt(np.maximum(depths, 0.0) * self.radius)
-        summed = (of_radius(radii) * density * 2 * t) @ weights * 0.5 * span
-        return np.asarray(self.density * summed)
+        return np.asarray(self.density * ((of_radius(radii) * density * 2 * t) @ weights * span))
