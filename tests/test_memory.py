@@ -10,7 +10,7 @@ import pytest
 import roughcontact as rc
 from roughcontact import memory
 
-SIDE = 512
+SIDE = 1024
 CELLS = 9 * SIDE**2  # bytes of the lightest load
 
 
@@ -42,7 +42,7 @@ def spike():
 
 def test_a_press_that_cannot_fit_is_refused(spike, machine):
     machine(free=CELLS - 1)
-    told = "on 512 x 512 cells needs 0.0.* GB of memory at least, and 0.00236 GB are there: press a part"
+    told = "on 1024 x 1024 cells needs 0.0.* GB of memory at least, and 0.00944 GB are there: press a part"
     for verb in (rc.press, rc.loading_path, rc.loading_curve):
         loads = {"force": 1e-9} if verb is rc.press else {"forces": [1e-9]}
         for operator in (None, rc.half_space(spike.grid, 1e9)):
@@ -52,7 +52,9 @@ def test_a_press_that_cannot_fit_is_refused(spike, machine):
 
 def test_a_press_that_may_not_fit_is_tried_with_a_warning(spike, machine):
     machine(free=CELLS)
-    told = "a load on 512 x 512 cells needs up to 0.0498 GB of memory, and 0.00236 GB are there: press a part"
+    told = (
+        "a load on 1024 x 1024 cells needs up to 0.167 GB of memory, and 0.00944 GB are there: press a part"
+    )
     with pytest.warns(rc.MemoryWarning, match=told) as caught:
         assert rc.press(spike, 1e9, force=1e-9).contact.sum() == 1
     assert [each.filename for each in caught] == [__file__]
@@ -71,9 +73,10 @@ def test_the_memory_is_asked_once_for_each_press(spike, machine, monkeypatch):
     assert len(asked) == 1
 
 
-def test_small_grids_are_not_asked_about(machine):
+@pytest.mark.parametrize("side", [32, 256])
+def test_small_grids_are_not_asked_about(machine, side):
     machine(free=0)
-    surface = rc.shapes.paraboloid(rc.Grid((32, 32), 1e-6), 1e-3)
+    surface = rc.shapes.paraboloid(rc.Grid((side, side), 1e-6), 1e-3)
     assert rc.press(surface, 1e9, force=1e-6).force == pytest.approx(1e-6)
 
 

@@ -49,7 +49,7 @@ def peak(run):
 @pytest.mark.parametrize("curve", [False, True])
 @pytest.mark.parametrize("body", BODIES)
 def test_every_load_lies_between_the_bounds(body, curve):
-    rough, make = surface(body, 256), BODIES[body][1]
+    rough, make = surface(body, 128 if "line" in body else 256), BODIES[body][1]
     operator = None if make is None else make(rough.grid)
 
     def load(pressure):
@@ -68,7 +68,7 @@ def test_every_load_lies_between_the_bounds(body, curve):
 
 @pytest.mark.parametrize("periodic", [False, True])
 def test_a_heavy_load_takes_more_than_half_of_what_is_said(periodic):
-    rough = surface("periodic" if periodic else "free", 512)
+    rough = surface("periodic" if periodic else "free", 1024)
     _, full = rc.memory_needed(rough)
     assert peak(lambda: rc.press(rough, 1.0, pressure=10.0)) > full / 2
 
@@ -82,9 +82,12 @@ def test_rings_take_the_making_of_their_matrix():
     assert rc.memory_needed(rings, operator=rc.ring(rings, 1.0))[0] == 8 * 400  # the matrix is there
 
 
-def test_what_is_kept_for_the_next_load_is_64_megabytes_at_the_most():
-    small, large = (rc.memory_needed(rc.Grid((n, n), 1.0))[1] / n**2 for n in (64, 16384))
-    assert small == 2 * (large - buffers.MOST / 16384**2)
+def test_what_is_kept_and_a_matrix_of_few_cells_take_64_megabytes_at_the_most():
+    def full(n):
+        return rc.memory_needed(rc.Grid((n, n), 1.0))[1]
+
+    assert (full(64) - buffers.MOST) / 64**2 == (full(16384) - buffers.MOST) / 16384**2
+    assert full(8) < 1e5
 
 
 def test_a_period_of_16384_cells_fits_24_gigabytes_with_its_heights():

@@ -405,20 +405,20 @@ def test_surfaces_that_are_not_made_in_place():
 
 @pytest.mark.parametrize("processes", [1, 3])
 def test_what_does_not_fit_is_refused_on_all_processes(processes, monkeypatch):
-    surface, told = rough((516, 516)), []
+    surface, told = rough((1032, 1032)), []
 
     def refused(communicator):
         with pytest.raises(ValueError, match="memory") as error:
             rc.press(in_slabs(surface, communicator), 1e9, pressure=1e6)
         told.append(str(error.value))
         assert (
-            sum(communicator.allgather(rc.memory_needed(in_slabs(surface, communicator))[0])) == 40 * 516**2
+            sum(communicator.allgather(rc.memory_needed(in_slabs(surface, communicator))[0])) == 40 * 1032**2
         )
 
-    monkeypatch.setattr("roughcontact.memory.most_memory", lambda: 40 * 516**2 - 1)
+    monkeypatch.setattr("roughcontact.memory.most_memory", lambda: 40 * 1032**2 - 1)
     together(processes, refused)
     assert len(told) == processes
-    assert f"a load on 516 x 516 cells, held by {processes} processes of which {processes} share" in told[0]
+    assert f"a load on 1032 x 1032 cells, held by {processes} processes of which {processes} share" in told[0]
 
 
 @pytest.mark.parametrize("machines", ["abc", "aba"])

@@ -30,7 +30,7 @@ BYTES = {
     (Geometry.SURFACE, False): (9, 95, 60, 155),
     (Geometry.SURFACE, True): (40, 75, 45, 105),
     (Geometry.LINE, False): (9, 300, 60, 300),
-    (Geometry.LINE, True): (100, 300, 100, 300),
+    (Geometry.LINE, True): (60, 300, 60, 300),
     (Geometry.FOUNDATION, False): (9, 75, 60, 140),
     (Geometry.RING, False): (8, 75, 8, 75),
 }
@@ -64,7 +64,7 @@ def memory_needed(
     Notes
     -----
     The numbers come from a table of measured bytes per cell, see docs/how-to/memory.md. The second one contains up to
-    64 MB for arrays that are kept for the next load and for the matrix of a contact of few cells.
+    64 MB for arrays that are kept for the next load and for the matrix of a contact of at most 2000 cells.
 
     Examples
     --------
@@ -87,7 +87,7 @@ def memory_needed(
     if operator is None and geometry is Geometry.RING:
         cells *= cells
     light, full = (cells * each for each in (row[2:] if curve else row[:2]))
-    return light, full + min(full, MOST)
+    return light, full + min(full + 16 * grid.size**2, MOST)  # arrays that are kept, a matrix and its factors
 
 
 def largest_maps(memory: float) -> tuple[int, int]:
