@@ -160,7 +160,7 @@ class TestMemory:
         answer = invoke(*words)
         assert answer.exit_code == 0
         assert (
-            f"Note: a {'load' if verb == 'press' else 'curve'} on 24 x 32 cells needs up to 0.000"
+            f"Note: a {'load' if verb == 'press' else 'curve'} on 24 x 32 cells needs up to 0.009"
             in answer.stderr
         )
 
