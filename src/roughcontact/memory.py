@@ -14,7 +14,7 @@ from roughcontact.errors import InputError
 
 __all__ = ["MemoryWarning", "free_memory", "gigabytes", "most_memory", "require_free", "require_memory"]
 
-SMALL = 2**27  # [bytes] less than Python and its libraries take: nothing is asked
+SMALL = 2**27  # [bytes] less than Python and its libraries take: a need below it is not compared
 GROUPS = Path("/sys/fs/cgroup")  # where Linux states what a container or a job may use
 OWN = Path("/proc/self/cgroup")
 _ELSEWHERE = "or use a machine with more memory"

@@ -23,9 +23,10 @@ __all__ = ["largest_maps", "memory_needed", "require_memory_for"]
 # Bytes per cell in addition to the heights: for a load on few cells and for the heaviest load, and the same for a
 # curve. They depend on the geometry, and on whether a constant pressure causes no displacement: then all cells are
 # solved for, even under a light load. For rings they are bytes per pair of rings, because the matrix is full.
-# `benchmarks/memory.py` measures them on maps of 512 x 512 and 2048 x 2048 cells, and lines of up to 640 000. Lower
-# bounds are rounded down, because a load that fits must not be refused. Every load writes at least 9 bytes: the
-# separation and the mask of missing cells.
+# `benchmarks/memory.py` measures them on maps of 512 x 512 and 2048 x 2048 cells, and lines of up to 640 000; the
+# lower bound of a periodic line is that of 8100 cells (tests/contact/test_memory_needed.py). Lower bounds are rounded
+# down, because a load that fits must not be refused. Every load writes at least 9 bytes: the separation and the mask of
+# missing cells.
 BYTES = {
     (Geometry.SURFACE, False): (9, 95, 60, 155),
     (Geometry.SURFACE, True): (40, 75, 45, 105),
